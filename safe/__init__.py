@@ -1,0 +1,31 @@
+"""SAFE, solution and fitness evolution: a robot in a deceptive maze, and the algorithms that evolve it.
+
+A companion to M. Sipper, J. H. Moore and R. J. Urbanowicz, "Solution and Fitness Evolution (SAFE): Coevolving Solutions
+and Their Objective Functions", EuroGP 2019, doi 10.1007/978-3-030-16670-0_10.
+"""
+
+from safe.algorithms import ALGORITHMS, Algorithm, Parameters
+from safe.evolution import Generation, Run, evolve, generations
+from safe.experiment import Experiment, run
+from safe.maze import Maze, load_maze
+from safe.novelty import NoveltyArchive
+from safe.robot import endpoints, path
+
+__all__ = [
+    "ALGORITHMS",
+    "Algorithm",
+    "Experiment",
+    "Generation",
+    "Maze",
+    "NoveltyArchive",
+    "Parameters",
+    "Run",
+    "endpoints",
+    "evolve",
+    "generations",
+    "load_maze",
+    "path",
+    "run",
+]
+
+__version__ = "0.1.0"

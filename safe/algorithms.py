@@ -1,0 +1,148 @@
+"""The paper's algorithms and its Table 1, as data.
+
+Every solution S_i is scored by every objective function O_j of a population of objective functions and takes the best
+score (Algorithm 1 of the paper). An objective function is a weighted sum of components,
+
+    O_j(S_i) = a_j * (1 / distance of S_i's end point to the goal) + b_j * (novelty of S_i)         (Equation 1)
+
+and the algorithms differ only in who judges:
+
+    standard    the single [1, 0], which never changes
+    novelty     the single [0, 1], which never changes
+    fixed       the single [1/2, 1/2], which never changes
+    safe        a population of random ones, bred by their genotypic novelty (Algorithm 2)
+    random      nobody: there is nothing to select by, so every generation is drawn anew
+"""
+
+from __future__ import annotations
+
+import string
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+
+from safe import checks
+from safe.novelty import ARCHIVE_CAPACITY, K
+from safe.robot import MOST_STEPS, STEPS
+
+COMPONENTS = ("1 / distance", "novelty")  # what an objective function weighs
+COEFFICIENTS = tuple(string.ascii_lowercase[: len(COMPONENTS)])  # what the weights are called: a, b
+RATINGS = ("none", "genotypic novelty")  # how objective functions are rated: a frozen population is not
+
+
+@dataclass(frozen=True)
+class Algorithm:
+    """Who judges the solutions.
+
+    Parameters
+    ----------
+    name : str
+        A label; what the algorithm does depends on the rest alone.
+    objectives : sequence of (a, b), or None
+        The objective functions of the first generation; None draws as many as the parameters say,
+        uniformly from [0, 1]. Without any there is nothing to select by: random search.
+    rating : {"none", "genotypic novelty"}
+        How objective functions are rated, and so bred, from generation to generation.
+        With "none" they stay as they are.
+
+    Raises
+    ------
+    ValueError
+        Where an objective function has not one finite weight for each component, or the rating is unknown.
+
+    Examples
+    --------
+    >>> Algorithm("mostly novelty", objectives=[(0.1, 0.9)]).objectives
+    ((0.1, 0.9),)
+    """
+
+    name: str
+    objectives: Sequence[Sequence[float]] | None = None
+    rating: str = "none"
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str) or not self.name:
+            raise ValueError(f"name must be a text; was {checks.shown(self.name)}")
+        checks.choice("rating", self.rating, RATINGS)
+        if self.objectives is None:
+            return
+        weights = checks.array("objectives", self.objectives, (None, len(COMPONENTS)), or_empty=True)
+        object.__setattr__(self, "objectives", tuple(map(tuple, weights.tolist())))
+        if self.rating != "none" and (len(weights) == 0 or len(weights) % 2):
+            raise ValueError(f"objectives must be an even number of them where they evolve; was {len(weights)}")
+
+
+ALGORITHMS = {
+    algorithm.name: algorithm
+    for algorithm in (
+        Algorithm("standard", objectives=[(1, 0)]),
+        Algorithm("novelty", objectives=[(0, 1)]),
+        Algorithm("safe", objectives=None, rating="genotypic novelty"),
+        Algorithm("fixed", objectives=[(0.5, 0.5)]),
+        Algorithm("random", objectives=[]),
+    )
+}
+
+
+def get_algorithm(name: str | Algorithm) -> Algorithm:
+    """An algorithm by its name in ALGORITHMS; one that is no name is passed through."""
+    return name if isinstance(name, Algorithm) else ALGORITHMS[checks.choice("algorithm", name, ALGORITHMS)]
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """The paper's Table 1.
+
+    Raises
+    ------
+    ValueError
+        Where a size, count or rate is out of range. Offspring come in pairs, so a population and its elites
+        must be even numbers.
+
+    Examples
+    --------
+    >>> Parameters().evaluations
+    100000
+    >>> Parameters(population=51)
+    Traceback (most recent call last):
+        ...
+    ValueError: population must be an even number; was 51
+    """
+
+    population: int = 200  # solutions in a generation
+    objectives: int = 200  # objective functions in a generation, where they evolve
+    generations: int = 500  # at the most
+    tournament: int = 5  # individuals drawn for a tournament
+    elites: int = 2  # fittest individuals that pass on unchanged
+    crossover: float = 0.8  # probability, for a pair of parents
+    mutation: float = 0.4  # probability, for an offspring
+    k: int = K  # nearest neighbours that count for novelty
+    archive: int = ARCHIVE_CAPACITY  # places in each of the two novelty archives
+    steps: int = STEPS  # that a robot takes
+    success_distance: int = 2  # cells, taxicab: an end point this near to the goal is a success
+
+    def __post_init__(self) -> None:
+        lowest = {"elites": 0, "archive": 0, "success_distance": 0}
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if field.type == "float":
+                value = checks.probability(field.name, value)
+            else:
+                high = MOST_STEPS if field.name == "steps" else MOST
+                value = checks.integer(field.name, value, lowest.get(field.name, 1), high)
+            object.__setattr__(self, field.name, value)
+        for name in ("population", "objectives", "elites"):
+            if getattr(self, name) % 2:
+                raise ValueError(f"{name} must be an even number; was {getattr(self, name)}")
+        if self.elites >= min(self.population, self.objectives):
+            raise ValueError(
+                f"elites must be fewer than the {self.population} solutions and "
+                f"{self.objectives} objective functions; was {self.elites}"
+            )
+
+    @property
+    def evaluations(self) -> int:
+        """Solutions that a run evaluates at the most; random search evaluates exactly these."""
+        return self.population * self.generations
+
+
+MOST = 1_000_000  # of anything that is counted: keeps a mistyped size from filling the memory

@@ -1,0 +1,245 @@
+"""Experiments: many independent runs of one algorithm on one maze.
+
+What an experiment is follows from its content alone: the algorithm's objective functions and rating, the maze's cells,
+the parameters, the seed, and the version of the rules by which runs are made. Labels and the number of runs do not
+count: 500 runs are the 100 made before and 400 more. The randomness of run r is spawned from a digest of the content
+and r, so a run depends on nothing else: not on the executor, on how many runs there are, or on what ran before.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import sys
+import time
+from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
+from dataclasses import asdict, dataclass
+
+import numpy as np
+import pandas as pd
+from tqdm import tqdm
+
+from safe import checks
+from safe.algorithms import COEFFICIENTS, Algorithm, Parameters, get_algorithm
+from safe.evolution import RULES, Run, evolve
+from safe.maze import Maze, load_maze
+from safe.robot import WEIGHTS
+from safe.store import Store
+
+WEIGHT_COLUMNS = [f"p{i}" for i in range(1, WEIGHTS + 1)]
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """Independent runs of an algorithm on a maze.
+
+    Parameters
+    ----------
+    algorithm : Algorithm or str
+        The algorithm, or its name in `safe.ALGORITHMS`.
+    maze : Maze or str
+        The maze, its name, or the path of its file.
+    runs : int
+        How many; they are numbered from 0.
+    seed : int
+        Another seed gives other runs.
+    parameters : Parameters
+        Sizes and rates; the paper's by default.
+
+    Raises
+    ------
+    ValueError
+        Where a name is unknown or a number is out of range.
+    """
+
+    algorithm: Algorithm | str
+    maze: Maze | str
+    runs: int = 500
+    seed: int = 0
+    parameters: Parameters = Parameters()
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.parameters, Parameters):
+            raise ValueError(f"parameters must be a Parameters; was {checks.shown(self.parameters)}")
+        for name, value in (
+            ("algorithm", get_algorithm(self.algorithm)),
+            ("maze", load_maze(self.maze)),
+            ("runs", checks.integer("runs", self.runs, 1)),
+            ("seed", checks.integer("seed", self.seed, 0)),
+        ):
+            object.__setattr__(self, name, value)
+
+    @property
+    def content(self) -> dict:
+        """What makes this experiment this one and no other, ready for JSON.
+
+        Parameters are listed where they depart from the paper's: one added later leaves old experiments what they are.
+        """
+        paper = asdict(Parameters())
+        return {
+            "rules": RULES,
+            "seed": self.seed,
+            "maze": self.maze.drawing(),
+            "algorithm": {"objectives": self.algorithm.objectives, "rating": self.algorithm.rating},
+            "parameters": {name: v for name, v in asdict(self.parameters).items() if v != paper[name]},
+        }
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the content, in hexadecimal."""
+        return hashlib.sha256(json.dumps(self.content, sort_keys=True).encode()).hexdigest()
+
+    def seed_sequence(self, run: int) -> np.random.SeedSequence:
+        """Where the randomness of one run starts from: with it, `safe.evolve` and `safe.generations` replay that run.
+
+        Examples
+        --------
+        >>> experiment = Experiment("random", "maze1", parameters=Parameters(generations=2))
+        >>> replayed = evolve("maze1", "random", experiment.seed_sequence(7), experiment.parameters)
+        >>> replayed.distance == int(run(experiment, progress=False).distance[7])
+        True
+        """
+        run = checks.integer("run", run, 0)
+        return np.random.SeedSequence(int(self.digest, 16), spawn_key=(run,))
+
+
+def run(
+    experiment: Experiment,
+    store: str | os.PathLike | None = None,
+    executor: Executor | None = None,
+    progress: bool = True,
+) -> pd.DataFrame:
+    """The results of an experiment: those in the store, and the missing ones, computed now.
+
+    Every run is kept in the store as soon as it is finished, so an interrupted experiment goes on where it stopped.
+
+    Parameters
+    ----------
+    experiment : Experiment
+    store : path, optional
+        The SQLite file that keeps the results; made where there is none. Without it nothing is kept.
+    executor : concurrent.futures.Executor, optional
+        What computes the runs; by default one thread for each core that this process may use.
+    progress : bool
+        Show a progress bar, where somebody watches: in a terminal or a notebook, not in a log.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row for each run, in order: run, success, generation (the last one; in a successful run the generations to
+        success), distance (of the best solution, taxicab, in cells), p1..p16 (its controller), a, b (the objective
+        function that gave it its fitness; not in random search), evaluations, seconds.
+
+    Raises
+    ------
+    ValueError
+        Where the store is none.
+
+    Examples
+    --------
+    >>> experiment = Experiment("standard", "maze1", runs=3, parameters=Parameters(generations=5))
+    >>> run(experiment, progress=False)[["run", "success", "evaluations"]]
+       run  success  evaluations
+    0    0    False         1000
+    1    1    False         1000
+    2    2    False         1000
+    """
+    with Store(store) as results:
+        number = results.experiment(
+            experiment.content, experiment.digest, experiment.algorithm.name, experiment.maze.name
+        )
+        missing = sorted(set(range(experiment.runs)) - results.finished(number))
+        if missing:
+            _compute(experiment, number, missing, results, executor, progress)
+        return _table(experiment, results.runs(number, experiment.runs))
+
+
+def _compute(
+    experiment: Experiment,
+    number: int,
+    missing: list[int],
+    results: Store,
+    executor: Executor | None,
+    progress: bool,
+) -> None:
+    """Compute the missing runs, and keep each as it finishes."""
+    pool = executor if executor is not None else ThreadPoolExecutor(_cores())
+    batch = results.batch(number)
+    bar = tqdm(
+        desc=f"{experiment.algorithm.name} on {experiment.maze.name}",
+        total=experiment.runs,
+        initial=experiment.runs - len(missing),
+        unit="run",
+        disable=not (progress and _is_watched()),
+        mininterval=0.5,
+    )
+    pending: dict[Future, int] = {}
+    successes = sum(outcome.success for _, outcome, _ in results.runs(number, experiment.runs))
+
+    def keep(future: Future) -> None:
+        nonlocal successes
+        outcome, seconds = future.result()
+        results.add(number, batch, pending[future], outcome, seconds)
+        del pending[future]
+        successes += outcome.success
+        bar.set_postfix(successes=successes, refresh=False)
+        bar.update()
+
+    try:
+        for r in missing:
+            task = experiment.maze, experiment.algorithm, experiment.seed_sequence(r), experiment.parameters
+            pending[pool.submit(_timed_run, *task)] = r
+        for future in as_completed(list(pending)):
+            keep(future)
+    except BaseException as error:
+        for future in list(pending):
+            if future.done() and not future.cancelled() and future.exception() is None:
+                keep(future)
+            future.cancel()
+        kept = len(results.finished(number).intersection(range(experiment.runs)))
+        error.add_note(
+            f"{kept} of {experiment.runs} runs are kept in {results.name}; "
+            "the same experiment asked for again computes the rest"
+        )
+        raise
+    finally:
+        bar.close()
+        if executor is None:
+            pool.shutdown(cancel_futures=True)
+
+
+def _timed_run(
+    maze: Maze, algorithm: Algorithm, seed: np.random.SeedSequence, parameters: Parameters
+) -> tuple[Run, float]:
+    """One run, and how many seconds it took."""
+    started = time.perf_counter()
+    return evolve(maze, algorithm, seed, parameters), time.perf_counter() - started
+
+
+def controller_of(row: pd.Series) -> np.ndarray:
+    """The controller in one row of the results, array of float of shape (16,)."""
+    return row[WEIGHT_COLUMNS].to_numpy(dtype=np.float64)
+
+
+def _table(experiment: Experiment, runs) -> pd.DataFrame:
+    coefficients = [] if experiment.algorithm.objectives == () else list(COEFFICIENTS)
+    columns = ["run", "success", "generation", "distance", *WEIGHT_COLUMNS, *coefficients, "evaluations", "seconds"]
+    rows = [
+        (r, o.success, o.generation, o.distance, *o.controller, *o.coefficients, o.evaluations, seconds)
+        for r, o, seconds in runs
+    ]
+    return pd.DataFrame(rows, columns=columns)
+
+
+def _cores() -> int:
+    """How many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _is_watched() -> bool:
+    """Does what this process writes to stderr reach a person: a terminal, or the page of a notebook?
+
+    tqdm's own switch, TQDM_DISABLE, says that it does not.
+    """
+    return not os.environ.get("TQDM_DISABLE") and (sys.stderr.isatty() or "ipykernel" in sys.modules)

@@ -1,0 +1,33 @@
+"""How every compiled function of this package is compiled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numba
+
+_PACKAGE = Path(__file__).parent
+
+
+def kernel(function: Callable) -> Callable:
+    """Compile `function` with numba: no Python inside, GIL released, kept on disk, IEEE arithmetic.
+
+    `fastmath` stays off: it lets a compiler reorder sums, and then a run would differ between machines.
+    """
+    compiled = numba.njit(nogil=True, cache=True)(function)
+    _forget_stale_cache(compiled)
+    return compiled
+
+
+def _forget_stale_cache(compiled: Callable) -> None:
+    """Remove what is kept on disk of a kernel where any source of the package is newer.
+
+    numba looks only at the file of the function itself, so without this an edit to robot.py would
+    leave evolution.py running the robot of before (https://github.com/numba/numba/issues/3772).
+    """
+    newest_source = max(source.stat().st_mtime for source in _PACKAGE.glob("*.py"))
+    name = f"{Path(compiled.py_func.__code__.co_filename).stem}.{compiled.py_func.__qualname__}-"
+    for index in Path(compiled.stats.cache_path).glob(name + "*.nbi"):
+        if index.stat().st_mtime < newest_source:
+            index.unlink(missing_ok=True)

@@ -1,0 +1,103 @@
+"""Selection and variation: how the next generation is bred (Section 3.2 and Table 1).
+
+The fittest few pass on unchanged (elitism). The rest of the places are filled in pairs: two parents, each the winner
+of a tournament; with some probability a single-point crossover of the two; and for each offspring, with some
+probability, one gene replaced by a new uniform value (mutation).
+
+All draws come from `rng.random()`, a uniform value u in [0, 1): an index among n is int(u n), a value in [low, high] is
+low + (high - low) u. For each pair of offspring they are, in this order: as many indices as the tournament is large,
+for the first parent; the same for the second; one draw that decides on crossover and, where there is one, the cut;
+then for each of the two offspring one draw that decides on mutation and, where there is one, the gene and its value.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from safe.kernel import kernel
+
+
+class Breeding(NamedTuple):
+    """The rates and sizes by which a population is bred, and the range of its genes."""
+
+    tournament: int
+    elites: int
+    crossover: float
+    mutation: float
+    low: float
+    high: float
+
+
+# Compiled functions
+
+
+@kernel
+def draw_index(rng: np.random.Generator, n: int) -> int:
+    """A uniform index in 0..n-1."""
+    return int(rng.random() * n)
+
+
+@kernel
+def draw_uniform(rng: np.random.Generator, low: float, high: float) -> float:
+    """A uniform value in [low, high)."""
+    return low + (high - low) * rng.random()
+
+
+@kernel
+def draw_genomes(rng: np.random.Generator, low: float, high: float, genomes: np.ndarray) -> None:
+    """Fill all genomes with uniform values, one genome after the other."""
+    for i in range(genomes.shape[0]):
+        for gene in range(genomes.shape[1]):
+            genomes[i, gene] = draw_uniform(rng, low, high)
+
+
+@kernel
+def tournament(fitness: np.ndarray, size: int, rng: np.random.Generator) -> int:
+    """The fittest of `size` individuals drawn with replacement, the first drawn on a tie."""
+    winner = draw_index(rng, len(fitness))
+    for _ in range(size - 1):
+        rival = draw_index(rng, len(fitness))
+        if fitness[rival] > fitness[winner]:
+            winner = rival
+    return winner
+
+
+@kernel
+def crossover(first: np.ndarray, second: np.ndarray, rng: np.random.Generator) -> None:
+    """Swap what lies behind a cut that is uniform in 1..length-1, in place."""
+    cut = 1 + draw_index(rng, len(first) - 1)
+    for gene in range(cut, len(first)):
+        first[gene], second[gene] = second[gene], first[gene]
+
+
+@kernel
+def mutate(genome: np.ndarray, low: float, high: float, rng: np.random.Generator) -> None:
+    """Give one gene, drawn uniformly, a new uniform value, in place."""
+    gene = draw_index(rng, len(genome))
+    genome[gene] = draw_uniform(rng, low, high)
+
+
+@kernel
+def breed(
+    genomes: np.ndarray, fitness: np.ndarray, rates: Breeding, rng: np.random.Generator, offspring: np.ndarray
+) -> None:
+    """Put the next generation into `offspring`: the elites first, the fittest at the front, then the pairs."""
+    is_elite = np.zeros(len(genomes), dtype=np.bool_)
+    for place in range(rates.elites):
+        fittest = -1
+        for i in range(len(genomes)):
+            if not is_elite[i] and (fittest < 0 or fitness[i] > fitness[fittest]):
+                fittest = i
+        is_elite[fittest] = True
+        offspring[place] = genomes[fittest]
+    for place in range(rates.elites, len(genomes), 2):
+        pair = offspring[place : place + 2]
+        pair[0] = genomes[tournament(fitness, rates.tournament, rng)]
+        pair[1] = genomes[tournament(fitness, rates.tournament, rng)]
+        if rng.random() < rates.crossover:
+            crossover(pair[0], pair[1], rng)
+        for genome in pair:
+            if rng.random() < rates.mutation:
+                mutate(genome, rates.low, rates.high, rng)

@@ -1,0 +1,80 @@
+import dataclasses
+
+import pytest
+
+from safe import ALGORITHMS, Algorithm, Parameters
+
+
+def test_the_papers_algorithms():
+    assert {name: (a.objectives, a.rating) for name, a in ALGORITHMS.items()} == {
+        "standard": (((1.0, 0.0),), "none"),
+        "novelty": (((0.0, 1.0),), "none"),
+        "safe": (None, "genotypic novelty"),
+        "fixed": (((0.5, 0.5),), "none"),
+        "random": ((), "none"),
+    }
+
+
+def test_the_papers_parameters():
+    assert dataclasses.asdict(Parameters()) == {
+        "population": 200,
+        "objectives": 200,
+        "generations": 500,
+        "tournament": 5,
+        "elites": 2,
+        "crossover": 0.8,
+        "mutation": 0.4,
+        "k": 15,
+        "archive": 1000,
+        "steps": 300,
+        "success_distance": 2,
+    }
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        ({"name": ""}, "name must be a text; was ''"),
+        ({"rating": "by taste"}, "rating must be one of 'none', 'genotypic novelty'; was 'by taste'"),
+        ({"objectives": [(1, 0, 0)]}, r"objectives must have the shape \(any, 2\); was of shape \(1, 3\)"),
+        ({"objectives": (1, 0)}, r"objectives must have the shape \(any, 2\); was of shape \(2,\)"),
+        ({"objectives": [(1, float("inf"))]}, "objectives must be finite"),
+        (
+            {"objectives": [(1, 0)] * 3, "rating": "genotypic novelty"},
+            "objectives must be an even number of them where they evolve; was 3",
+        ),
+        (
+            {"objectives": [], "rating": "genotypic novelty"},
+            "objectives must be an even number of them where they evolve; was 0",
+        ),
+        ({"objectives": 7}, "objectives must"),
+    ],
+)
+def test_bad_algorithms(arguments, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        Algorithm(**{"name": "mine", **arguments})
+
+
+@pytest.mark.parametrize("name", [field.name for field in dataclasses.fields(Parameters)])
+@pytest.mark.parametrize("value", [-1, "1", None, float("nan"), True, 10**9])
+def test_bad_parameters(name, value):
+    with pytest.raises(ValueError, match=f"^{name} must be"):
+        Parameters(**{name: value})
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        ({"population": 199}, "population must be an even number; was 199"),
+        ({"objectives": 3}, "objectives must be an even number; was 3"),
+        ({"elites": 1}, "elites must be an even number; was 1"),
+        ({"elites": 200}, "elites must be fewer than the 200 solutions and 200 objective functions; was 200"),
+        ({"k": 0}, "k must be an integer from 1 to 1000000; was 0"),
+        ({"generations": 0}, "generations must be an integer from 1"),
+        ({"crossover": 1.01}, "crossover must be a number from 0 to 1; was 1.01"),
+        ({"steps": 1.5}, "steps must be an integer from 1 to 1000000; was 1.5"),
+    ],
+)
+def test_bad_values(arguments, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        Parameters(**arguments)

@@ -1,0 +1,192 @@
+import itertools
+import json
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import safe
+from safe import Algorithm, Parameters, evolve, generations
+from safe.evolution import RULES
+from tests import oracle
+from tests.conftest import mazes
+from tests.golden import FILE, golden_runs, outcome
+
+SMALL = Parameters(population=20, objectives=10, generations=12, archive=60, k=4, steps=40)
+EVOLVING = [name for name in safe.ALGORITHMS if name != "random"]
+
+
+def test_golden_runs():
+    golden = json.loads(FILE.read_text())
+    assert golden["rules"] == RULES
+    assert [{key: run[key] for key in ("algorithm", "maze", "seed")} for run in golden["runs"]] == list(golden_runs())
+    for run in golden["runs"]:
+        assert outcome(run["algorithm"], run["maze"], run["seed"]) == run["outcome"], run
+
+
+@settings(max_examples=25)
+@given(mazes(), st.sampled_from(EVOLVING), st.integers(0, 2**64))
+def test_a_run_is_that_of_the_oracle_generation_by_generation(maze, name, seed):
+    algorithm = safe.ALGORITHMS[name]
+    rng = np.random.Generator(np.random.SFC64(seed))
+    expected = oracle.evolve(maze.drawing().split("\n"), algorithm.objectives, algorithm.rating != "none", SMALL, rng)
+    for got, (solutions, ends, fitness, objectives, best) in itertools.zip_longest(
+        generations(maze, algorithm, seed, SMALL), expected
+    ):
+        assert got.genomes.tolist() == solutions
+        assert got.endpoints.tolist() == [list(end) for end in ends]
+        assert got.fitness.tolist() == fitness
+        assert got.objectives.tolist() == [list(map(float, objective)) for objective in objectives]
+        assert (got.best.distance, got.best.controller, got.best.coefficients) == (
+            best[0],
+            tuple(best[1]),
+            tuple(map(float, best[2])),
+        )
+
+
+@pytest.mark.parametrize("maze", ["maze1", "maze2"])
+@pytest.mark.parametrize("algorithm", safe.ALGORITHMS)
+def test_stepped_and_driven_give_the_same_run(algorithm, maze):
+    for seed in range(3):
+        parameters = Parameters(generations=40)
+        *_, last = generations(maze, algorithm, seed, parameters)
+        assert last.best == evolve(maze, algorithm, seed, parameters)
+
+
+@pytest.mark.parametrize("algorithm", safe.ALGORITHMS)
+def test_a_seed_gives_its_run_and_another_seed_another(algorithm):
+    parameters = Parameters(generations=5)
+    first, again, other = (evolve("maze1", algorithm, seed, parameters) for seed in (1, 1, 2))
+    assert first == again
+    assert first.controller != other.controller
+
+
+def test_the_forms_of_a_seed():
+    parameters = Parameters(generations=2)
+    by_number = evolve("maze1", "safe", 5, parameters)
+    assert by_number == evolve("maze1", "safe", [5], parameters)
+    assert by_number == evolve("maze1", "safe", np.random.SeedSequence(5), parameters)
+    assert by_number != evolve("maze1", "safe", [5, 1], parameters)
+
+
+def test_threads_do_not_disturb_each_other():
+    parameters = Parameters(generations=20)
+    one_by_one = [evolve("maze1", "safe", seed, parameters) for seed in range(8)]
+    with ThreadPoolExecutor(4) as pool:
+        assert list(pool.map(lambda seed: evolve("maze1", "safe", seed, parameters), range(8))) == one_by_one
+
+
+@pytest.mark.parametrize(("name", "weights"), [("standard", (1, 0)), ("novelty", (0, 1)), ("fixed", (0.5, 0.5))])
+def test_a_frozen_objective_function_is_the_algorithm(name, weights):
+    # a population of equal objective functions judges as one of them does, whatever its size
+    frozen = Algorithm("frozen", objectives=[weights] * 7)
+    for seed in range(3):
+        parameters = Parameters(generations=30)
+        assert evolve("maze1", frozen, seed, parameters) == evolve("maze1", name, seed, parameters)
+
+
+def test_novelty_is_not_computed_where_it_cannot_matter_and_nothing_changes():
+    # a weight too small to matter makes novelty be computed: the run of the standard EA stays what it is
+    parameters = Parameters(generations=30)
+    *_, without = generations("maze2", "standard", 4, parameters)
+    *_, weighed = generations("maze2", Algorithm("weighed", [(1, 5e-324)]), 4, parameters)
+    assert without.novelty is None
+    assert len(without.archive[0]) == 0
+    assert weighed.novelty.max() > 0
+    assert without.best.controller == weighed.best.controller
+
+
+def test_what_a_generation_tells():
+    maze = safe.load_maze("maze1")
+    before = None
+    for generation in generations(maze, "safe", 3, Parameters(generations=8)):
+        n, m = 200, 200
+        assert generation.number == (0 if before is None else before.number + 1)
+        assert generation.genomes.shape == (n, 16)
+        assert (generation.endpoints == safe.endpoints(maze, generation.genomes)).all()
+        assert (generation.distances == maze.distance(generation.endpoints)).all()
+        components = np.stack([1 / np.maximum(generation.distances, 0.5), generation.novelty], axis=1)
+        winners = generation.objectives[generation.winners]
+        np.testing.assert_array_equal((winners * components).sum(axis=1), generation.fitness)
+        scores = components @ generation.objectives.T
+        np.testing.assert_allclose(scores.max(axis=1), generation.fitness, rtol=1e-12)
+        assert generation.objectives.shape == (m, 2)
+        assert generation.objective_fitness.shape == (m,)
+        assert len(generation.archive[0]) == len(generation.archive[1]) == min(1000, n * (generation.number + 1))
+        assert generation.best.evaluations == n * (generation.number + 1)
+        if before is not None:  # the elite is handed on
+            elite = before.genomes[np.argsort(-before.fitness, kind="stable")[:2]]
+            assert (generation.genomes[:2] == elite).all()
+            assert generation.best.distance <= before.best.distance
+        before = generation
+
+
+def test_random_search_draws_every_generation_anew_and_keeps_the_best():
+    parameters = Parameters(generations=6)
+    rng = np.random.Generator(np.random.SFC64(9))
+    drawn = -1 + 2 * rng.random((parameters.evaluations, 16))
+    distances = safe.load_maze("maze1").distance(safe.endpoints("maze1", drawn))
+    run = evolve("maze1", "random", 9, parameters)
+    assert run.distance == distances.min()
+    assert run.controller == tuple(drawn[distances.argmin()])
+    assert run.coefficients == ()
+    assert (run.generation, run.evaluations) == (5, 1200)
+
+
+def test_random_search_goes_on_after_a_success():
+    maze = safe.Maze.from_drawing("S..G")
+    run = evolve(maze, "random", 0, Parameters(population=4, objectives=4, generations=9, steps=3))
+    assert run.success
+    assert run.evaluations == 36
+
+
+def test_a_run_stops_with_the_generation_that_succeeds():
+    maze = safe.load_maze("maze1")
+    runs = [list(generations(maze, "novelty", seed, Parameters(generations=200))) for seed in range(4)]
+    succeeded = [run for run in runs if run[-1].best.success]
+    assert succeeded
+    for run in runs:
+        assert [generation.distances.min() <= 2 for generation in run[:-1]] == [False] * (len(run) - 1)
+        last = run[-1]
+        assert last.best.success == (last.distances.min() <= 2)
+        assert last.best.success or last.number == 199
+    last = succeeded[0][-1]
+    assert last.best.controller == tuple(last.genomes[last.distances.argmin()])
+    assert (safe.path(maze, last.best.controller)[-1] == last.endpoints[last.distances.argmin()]).all()
+
+
+def test_at_the_goal_the_component_is_two():
+    maze = safe.Maze.from_drawing("SG")
+    (generation,) = generations(maze, "standard", 0, Parameters(population=4, objectives=4, generations=1, steps=1))
+    assert set(generation.distances) == {0, 1}
+    assert generation.fitness.tolist() == [2.0 if distance == 0 else 1.0 for distance in generation.distances]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        ({"maze": "maze3"}, "maze must be one of 'maze1', 'maze2'"),
+        (
+            {"algorithm": "saef"},
+            "algorithm must be one of 'standard', 'novelty', 'safe', 'fixed', 'random'; was 'saef'",
+        ),
+        ({"algorithm": None}, "algorithm must be one of"),
+        ({"seed": -1}, "seed must be a non-negative integer, a sequence of them, or a SeedSequence; was -1"),
+        ({"seed": 0.5}, "seed must be"),
+        ({"seed": None}, "seed must be"),
+        ({"seed": []}, "seed must be"),
+        ({"seed": [1, -2]}, "seed must be"),
+        ({"seed": "1"}, "seed must be"),
+        ({"parameters": None}, "parameters must be a Parameters; was None"),
+        (
+            {"algorithm": Algorithm("two", [(1, 0), (0, 1)], rating="genotypic novelty")},
+            "elites must be fewer than the 2 objective functions; was 2",
+        ),
+    ],
+)
+@pytest.mark.parametrize("function", [evolve, generations])
+def test_bad_arguments(function, arguments, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        function(**{"maze": "maze1", "algorithm": "safe", "seed": 0, **arguments})

@@ -1,0 +1,223 @@
+import os
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import replace
+
+import pandas as pd
+import pytest
+
+import safe
+from safe import Algorithm, Experiment, Maze, Parameters, run
+from safe import experiment as module
+from safe.store import Store
+
+SHORT = Parameters(generations=4)
+EXPERIMENT = Experiment("safe", "maze1", runs=12, seed=3, parameters=SHORT)
+
+
+def results(experiment, *arguments, **options):
+    """The table, without the time it took."""
+    return run(experiment, *arguments, progress=False, **options).drop(columns="seconds")
+
+
+@pytest.fixture(scope="module")
+def uninterrupted():
+    return results(EXPERIMENT)
+
+
+def test_one_row_a_run(uninterrupted):
+    assert list(uninterrupted) == [
+        *("run", "success", "generation", "distance"),
+        *(f"p{i}" for i in range(1, 17)),
+        *("a", "b", "evaluations"),
+    ]
+    assert uninterrupted.run.tolist() == list(range(12))
+    assert uninterrupted.success.dtype == bool
+    for row in uninterrupted.itertuples():
+        replayed = safe.evolve("maze1", "safe", EXPERIMENT.seed_sequence(row.run), SHORT)
+        assert (row.success, row.generation, row.distance) == (
+            replayed.success,
+            replayed.generation,
+            replayed.distance,
+        )
+        assert row[5:21] == replayed.controller
+        assert (row.a, row.b) == replayed.coefficients
+        assert row.evaluations == replayed.evaluations
+
+
+def test_random_search_has_no_coefficients():
+    table = results(replace(EXPERIMENT, algorithm="random", runs=2))
+    assert "a" not in table
+    assert len(table) == 2
+
+
+class InThisThread(Executor):
+    """Computes each task at once, and stops in the middle of one where it is told to."""
+
+    def __init__(self, stop_before=None, error=KeyboardInterrupt):
+        self.submitted, self.stop_before, self.error = 0, stop_before, error
+
+    def submit(self, function, *arguments):
+        if self.submitted == self.stop_before:
+            raise self.error
+        self.submitted += 1
+        future = Future()
+        future.set_result(function(*arguments))
+        return future
+
+
+def test_the_executor_does_not_matter(uninterrupted):
+    with ThreadPoolExecutor(1) as one, ThreadPoolExecutor(5) as five, ProcessPoolExecutor(2) as processes:
+        for executor in (one, five, processes, InThisThread()):
+            pd.testing.assert_frame_equal(results(EXPERIMENT, executor=executor), uninterrupted)
+
+
+def test_a_callers_executor_is_left_open():
+    with ThreadPoolExecutor(2) as pool:
+        results(EXPERIMENT, executor=pool)
+        assert pool.submit(int).result() == 0
+
+
+def test_only_missing_runs_are_computed(tmp_path, uninterrupted):
+    store = tmp_path / "s.sqlite"
+    for runs, computed in ((5, 5), (5, 0), (12, 7), (3, 0)):
+        executor = InThisThread()
+        table = results(replace(EXPERIMENT, runs=runs), store, executor)
+        assert executor.submitted == computed
+        pd.testing.assert_frame_equal(table, uninterrupted[:runs])
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, MemoryError])
+def test_interrupted_and_asked_for_again(tmp_path, uninterrupted, error):
+    store = tmp_path / "s.sqlite"
+    with pytest.raises(error) as caught:
+        results(EXPERIMENT, store, InThisThread(stop_before=5, error=error))
+    assert caught.value.__notes__ == [
+        f"5 of 12 runs are kept in {store}; the same experiment asked for again computes the rest"
+    ]
+    rest = InThisThread()
+    pd.testing.assert_frame_equal(results(EXPERIMENT, store, rest), uninterrupted)
+    assert rest.submitted == 7
+
+
+def test_a_failing_run_is_told_and_the_others_are_kept(tmp_path, monkeypatch, uninterrupted):
+    store, really = tmp_path / "s.sqlite", module.evolve
+
+    def evolve(maze, algorithm, seed, parameters):
+        if seed.spawn_key == (4,):
+            raise RuntimeError("no luck")
+        return really(maze, algorithm, seed, parameters)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(module, "evolve", evolve)
+        with pytest.raises(RuntimeError, match="no luck"):
+            results(EXPERIMENT, store, ThreadPoolExecutor(1))
+    pd.testing.assert_frame_equal(results(EXPERIMENT, store), uninterrupted)
+
+
+SCRIPT = """
+import sys, safe
+safe.run(safe.Experiment("safe", "maze2", runs=40, seed=5, parameters=safe.Parameters(generations=60)), sys.argv[1])
+"""
+
+
+@pytest.mark.parametrize("sent", [signal.SIGKILL, signal.SIGINT])
+def test_killed_and_asked_for_again(tmp_path, sent):
+    """A real process, stopped in the middle: what was finished is in the table of the one that goes on."""
+    store = tmp_path / "s.sqlite"
+    experiment = Experiment("safe", "maze2", runs=40, seed=5, parameters=Parameters(generations=60))
+    process = subprocess.Popen([sys.executable, "-c", SCRIPT, store], stderr=subprocess.PIPE, text=True)
+    kept = []
+    while len(kept) < 4:
+        assert process.poll() is None, process.stderr.read()
+        time.sleep(0.02)
+        if store.exists():
+            kept = stored(store, experiment)
+    process.send_signal(sent)
+    _, complaint = process.communicate(timeout=30)
+    assert process.returncode != 0
+    assert sent == signal.SIGKILL or "of 40 runs are kept" in complaint
+    kept = stored(store, experiment)
+    assert 4 <= len(kept) < 40
+    resumed = run(experiment, store, progress=False)
+    assert resumed.seconds[[number for number, _, _ in kept]].tolist() == [seconds for _, _, seconds in kept]
+    pd.testing.assert_frame_equal(resumed.drop(columns="seconds"), results(experiment))
+
+
+def stored(path, experiment):
+    with Store(path) as store:
+        number = store.experiment(experiment.content, experiment.digest, "safe", "maze2")
+        return list(store.runs(number, below=experiment.runs))
+
+
+def test_what_an_experiment_is():
+    same = [
+        replace(EXPERIMENT, runs=500),
+        replace(EXPERIMENT, algorithm=Algorithm("by another name", rating="genotypic novelty")),
+        replace(EXPERIMENT, maze=Maze.from_drawing(safe.load_maze("maze1").drawing(), name="copy")),
+    ]
+    others = [
+        replace(EXPERIMENT, seed=4),
+        replace(EXPERIMENT, algorithm="novelty"),
+        replace(EXPERIMENT, maze="maze2"),
+        replace(EXPERIMENT, parameters=Parameters(generations=4, k=14)),
+    ]
+    assert {experiment.digest for experiment in same} == {EXPERIMENT.digest}
+    assert len({experiment.digest for experiment in [EXPERIMENT, *others]}) == 5
+    assert EXPERIMENT.content["parameters"] == {"generations": 4}
+
+
+def test_rules_that_have_changed_make_another_experiment(monkeypatch):
+    before = EXPERIMENT.digest
+    monkeypatch.setattr(module, "RULES", module.RULES + 1)
+    assert EXPERIMENT.digest != before
+
+
+def test_the_digest_that_random_streams_are_spawned_from():
+    """Were this to change, every table would: raise RULES, and say so in the changelog."""
+    assert Experiment("safe", "maze1").digest[:16] == "33ae0854440296ca"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        ({"algorithm": "x"}, "algorithm must be one of"),
+        ({"maze": "x"}, "maze must be one of"),
+        ({"runs": 0}, "runs must be an integer of at least 1; was 0"),
+        ({"runs": "500"}, "runs must be an integer of at least 1; was '500'"),
+        ({"seed": -1}, "seed must be an integer of at least 0; was -1"),
+        ({"seed": None}, "seed must be an integer of at least 0; was None"),
+        ({"parameters": {}}, "parameters must be a Parameters; was {}"),
+    ],
+)
+def test_bad_experiments(arguments, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        Experiment(**{"algorithm": "safe", "maze": "maze1", **arguments})
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs a pseudo-terminal")
+def test_progress_in_a_terminal_and_silence_in_a_log():
+    import pty
+    import termios
+
+    code = (
+        "import safe; safe.run(safe.Experiment('standard', 'maze1', runs=3, parameters=safe.Parameters(generations=2)))"
+    )
+    log = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert log.stderr == log.stdout == ""
+    ours, theirs = pty.openpty()
+    termios.tcsetwinsize(theirs, (24, 100))
+    with subprocess.Popen([sys.executable, "-c", code], stderr=theirs):
+        os.close(theirs)
+        shown = b""
+        while True:
+            try:
+                shown += os.read(ours, 1000)
+            except OSError:  # the other side is closed
+                break
+    os.close(ours)
+    assert b"standard on maze1: 100%" in shown
+    assert b"successes=0" in shown

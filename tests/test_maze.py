@@ -1,0 +1,189 @@
+import hashlib
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+from safe import Maze, load_maze
+from safe.maze import SENSORS, maze_names, parse_maze
+from tests import oracle
+from tests.conftest import mazes
+
+DIGESTS = {  # of 100 lines of 100 characters: 0 open, 1 wall, 2 start, 3 goal
+    "maze1": "6d6e7a511392fc8b9bc2c6ef9c0173abe4c5dc610cfd83a3dd3b939a4ccefcfc",
+    "maze2": "f87e03aac30a4046da93e033a1adb64a6df2f29cee7dab8548d6b08790f8ede5",
+}
+
+
+@pytest.mark.parametrize("name", DIGESTS)
+def test_the_papers_mazes_cell_by_cell(name):
+    digits = load_maze(name).drawing("0123")
+    assert hashlib.sha256(digits.encode()).hexdigest() == DIGESTS[name]
+
+
+def test_the_papers_mazes_are_the_ones_that_come_along():
+    assert maze_names() == sorted(DIGESTS)
+
+
+@given(mazes())
+def test_a_drawing_gives_the_maze_back(maze):
+    assert Maze.from_drawing(maze.drawing()) == maze
+    assert parse_maze(maze.drawing("0123")) == maze
+
+
+def test_a_list_and_a_drawing_give_the_same_maze(tmp_path):
+    text = "# three walls\nsize 4,5\nstart 0,0\ngoal 3,4\nwall 0,1 2,3  # a diagonal\nwall 3,0 3,1\nwall 1,0 1,0\n"
+    drawing = "S#...\n#.#..\n...#.\n##..G"
+    with pytest.raises(ValueError, match="goal must be reachable"):
+        parse_maze(text)
+    text, drawing = text.replace("wall 1,0 1,0\n", ""), drawing.replace("#.#..", "..#..")
+    (tmp_path / "m.txt").write_text(text)
+    (tmp_path / "d.txt").write_text(drawing)
+    assert load_maze(tmp_path / "m.txt") == load_maze(str(tmp_path / "d.txt")) == Maze.from_drawing(drawing)
+    assert load_maze(tmp_path / "m.txt").name == "m"
+
+
+def test_a_maze_is_its_cells_and_not_its_name():
+    one, other = Maze.from_drawing("S.G", name="one"), Maze.from_drawing("S.G", name="other")
+    assert one == other
+    assert hash(one) == hash(other)
+    assert one != Maze.from_drawing("G.S")
+    assert pickle.loads(pickle.dumps(one)) == one
+
+
+def test_a_maze_does_not_change():
+    maze = load_maze("maze1")
+    with pytest.raises(ValueError, match="read-only"):
+        maze.walls[0, 0] = False
+
+
+def test_distance_is_taxicab():
+    maze = Maze.from_drawing("S....\n....G")
+    assert maze.distance([[0, 0], [1, 4], [0, 4]]).tolist() == [5, 0, 1]
+
+
+SIX_BY_SEVEN = """
+    #######
+    #.....#
+    #..S..#
+    #.....#
+    #....G#
+    #######
+"""
+
+
+@pytest.mark.parametrize(
+    ("drawing", "cell", "expected"),
+    [
+        # walls all around: 3 cells to each side wall, 2 up, 3 down; the goal below and to the right
+        (SIX_BY_SEVEN, (2, 3), {"right": 3, "left": 3, "up": 2, "down": 3, "goal": ("down", "right")}),
+        # in a corner: adjacent walls read 1
+        (SIX_BY_SEVEN, (1, 1), {"right": 5, "left": 1, "up": 1, "down": 4, "goal": ("down", "right")}),
+        # the goal in the same row counts as up, in the same column as left
+        (SIX_BY_SEVEN, (4, 1), {"right": 5, "left": 1, "up": 4, "down": 1, "goal": ("up", "right")}),
+        (SIX_BY_SEVEN, (1, 5), {"right": 1, "left": 5, "up": 1, "down": 4, "goal": ("down", "left")}),
+        (SIX_BY_SEVEN, (4, 5), {"right": 1, "left": 5, "up": 4, "down": 1, "goal": ("up", "left")}),
+        # no walls: the cells that are left to the edge
+        ("S...\n....\n...G", (0, 0), {"right": 3, "left": 0, "up": 0, "down": 2, "goal": ("down", "right")}),
+        ("S...\n....\n...G", (2, 2), {"right": 1, "left": 2, "up": 2, "down": 0, "goal": ("up", "right")}),
+        # only the first wall counts
+        ("S.#.#\n....G", (0, 0), {"right": 2, "left": 0, "up": 0, "down": 1, "goal": ("down", "right")}),
+        ("S.#.#\n....G", (0, 3), {"right": 1, "left": 1, "up": 0, "down": 1, "goal": ("down", "right")}),
+    ],
+)
+def test_sensors_by_hand(drawing, cell, expected):
+    maze = Maze.from_drawing(drawing)
+    height, width = maze.shape
+    readings = dict(zip(SENSORS, maze.sensors[cell].tolist(), strict=True))
+    for direction in ("right", "left", "up", "down"):
+        assert readings[f"dist_{direction}"] == expected[direction], direction
+        side = height if direction in ("up", "down") else width
+        assert readings[f"goal_{direction}"] == (side if direction in expected["goal"] else 0), direction
+
+
+@given(mazes())
+def test_sensors_are_those_of_the_oracle_in_every_cell(maze):
+    drawing = maze.drawing().split("\n")
+    for row, column in np.argwhere(~maze.walls):
+        expected = oracle.sense(drawing, row, column)
+        assert tuple(expected) == SENSORS
+        assert maze.sensors[row, column].tolist() == list(expected.values())
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("", "at least one row; was empty"),
+        ("S..\n..", "rectangle; was 2 cells wide in row 2, 3 in row 1"),
+        ("S.?G", r"only . 0 # 1 S 2 G 3; was '\?' in row 1"),
+        ("S...", "exactly one goal; had 0"),
+        ("...G", "exactly one start; had 0"),
+        ("S.SG", "exactly one start; had 2"),
+        ("S#G", r"goal must be reachable from the start \(0, 0\) through open cells; was \(0, 2\)"),
+        ("S#\n#G", "goal must be reachable"),
+    ],
+)
+def test_bad_drawings(text, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        Maze.from_drawing(text)
+
+
+GOOD = "size 3,3\nstart 0,0\ngoal 2,2\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        (GOOD.replace("goal 2,2\n", ""), "must give the goal; had none"),
+        (GOOD.replace("start 0,0\n", ""), "must give the start; had none"),
+        (GOOD + "size 3,3", "size must be given once; was given again in line 4"),
+        (GOOD + "door 1,1", "must begin with size, start, goal or wall; was 'door' in line 4"),
+        (GOOD + "wall 1,1", "wall must be followed by row,column row,column; was not in line 4"),
+        (GOOD + "wall 1,1 1,x", "wall must be followed by row,column row,column; was '1,x' in line 4"),
+        (GOOD + "wall 0,1 -1,1", "was '-1,1' in line 4"),
+        (GOOD + "wall 1,1 1,3", "wall must lie within the 3 by 3 cells; was at 1,3 in line 4"),
+        (GOOD + "wall 0,1 2,2", "wall must be horizontal, vertical or diagonal; was not in line 4"),
+        (GOOD + "wall 0,0 0,1", r"start must be an open cell; was \(0, 0\), which is wall"),
+        (GOOD + "wall 2,2 2,2", r"goal must be an open cell; was \(2, 2\), which is wall"),
+        (GOOD + "wall 0,1 2,1", "goal must be reachable"),
+        (GOOD.replace("2,2", "0,0"), "goal must be another cell than the start"),
+        (GOOD.replace("2,2", "3,0"), r"goal must be a \(row, column\) within the 3 by 3 cells; was \(3, 0\)"),
+        (GOOD.replace("3,3", "0,3"), "size must be 1 to 4096 cells a side; was 0,3"),
+        (GOOD.replace("3,3", "99999,99999"), "size must be 1 to 4096 cells a side"),
+        (GOOD.replace("3,3", "9999999999999,3"), "size must be followed by height,width"),
+    ],
+)
+def test_bad_lists(text, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        parse_maze(text)
+
+
+@pytest.mark.parametrize(
+    ("walls", "start", "goal", "complaint"),
+    [
+        ([[0, 0], [0]], (0, 0), (0, 1), "walls must be a rectangle"),
+        ([], (0, 0), (0, 1), "walls must be a rectangle"),
+        (np.zeros((1, 5000)), (0, 0), (0, 1), "walls must be a rectangle of 1 to 4096 cells a side"),
+        ([[0, 0]], (0, 2), (0, 1), "start must be a"),
+        ([[0, 0]], (0, -1), (0, 1), "start must be a"),
+        ([[0, 0]], "start", (0, 1), "start must be a"),
+        ([[0, 0]], (0.5, 0), (0, 1), "start must be a"),
+        ([[0, 0]], None, (0, 1), "start must be a"),
+    ],
+)
+def test_bad_mazes(walls, start, goal, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        Maze(walls, start, goal)
+
+
+@pytest.mark.parametrize("name", ["maze3", "", "no/such/file", ".", "a\0b", 7, None])
+def test_bad_names(name):
+    with pytest.raises(ValueError, match="maze must be"):
+        load_maze(name)
+
+
+def test_a_file_that_is_no_text(tmp_path):
+    (tmp_path / "noise").write_bytes(bytes(range(128, 256)))
+    with pytest.raises(ValueError, match=r"maze must be one of 'maze1', 'maze2' or the path .* \(not a text file\)"):
+        load_maze(tmp_path / "noise")

@@ -1,0 +1,121 @@
+from pathlib import Path
+
+import hypothesis.extra.numpy as hnp
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from safe import NoveltyArchive
+from tests import oracle
+
+DATA = Path(__file__).parent / "data"
+DISTANCES = {"taxicab": oracle.taxicab, "euclidean": oracle.euclidean}
+
+
+@pytest.mark.parametrize(
+    ("points", "scores", "metric"),
+    [("endpoints", "endpoint_novelty", "taxicab"), ("objectives", "objective_novelty", "euclidean")],
+)
+def test_every_reference_score(points, scores, metric):
+    with np.load(DATA / "novelty.npz") as reference:
+        generations, expected = reference[points], reference[scores]
+    archive = NoveltyArchive(metric=metric)
+    got = np.array([archive.score(generation) for generation in generations])
+    assert got.shape == expected.shape == (10, 200)
+    np.testing.assert_allclose(got, expected, rtol=0, atol=1e-12)
+
+
+def generations_of_points():
+    """A few generations of points in one to three dimensions; from a small grid, so that there are many ties."""
+    return st.integers(1, 3).flatmap(
+        lambda dimensions: st.lists(
+            hnp.arrays(
+                np.float64,
+                st.tuples(st.integers(0, 9), st.just(dimensions)),
+                elements=st.integers(0, 6).map(float) | st.floats(0, 6, allow_subnormal=False),
+            ),
+            min_size=1,
+            max_size=5,
+        )
+    )
+
+
+@given(generations_of_points(), st.integers(0, 12), st.integers(1, 20), st.sampled_from(sorted(DISTANCES)))
+def test_scores_and_archive_are_those_of_the_oracle(generations, capacity, k, metric):
+    archive, expected = NoveltyArchive(capacity, k, metric), oracle.Archive(capacity)
+    for points in generations:
+        scores = archive.score(points)
+        oracle_scores = oracle.novelty(points.tolist(), expected, k, DISTANCES[metric])
+        np.testing.assert_allclose(scores, oracle_scores, rtol=1e-12, atol=1e-12)
+        # the oracle goes on from the same archive: a last digit may decide who is in it
+        expected.members = [
+            (score, entry, point.tolist())
+            for entry, (point, score) in enumerate(zip(archive.points, archive.scores, strict=True))
+        ]
+        expected.entered = len(expected.members)
+
+
+@given(
+    st.lists(hnp.arrays(np.int64, st.tuples(st.integers(0, 9), st.just(2)), elements=st.integers(0, 9)), max_size=6),
+    st.integers(0, 12),
+    st.sampled_from([1, 2, 4]),
+)
+def test_who_is_in_the_archive(generations, capacity, k):
+    # taxicab distances of cells, over a power of two, are exact: so is every admission
+    archive, expected = NoveltyArchive(capacity, k), oracle.Archive(capacity)
+    for points in generations:
+        assert archive.score(points).tolist() == oracle.novelty(points.tolist(), expected, k, oracle.taxicab)
+        assert archive.scores.tolist() == [score for score, _, _ in expected.members]
+        assert archive.points.tolist() == [point for _, _, point in expected.members] or len(archive) == 0
+        assert len(archive) == len(expected.members)
+
+
+def test_a_point_meets_its_forerunners_twice_in_their_own_generation():
+    assert NoveltyArchive(k=2).score([[0, 0], [0, 3]]).tolist() == [1.5, 3.0]
+
+
+def test_fewer_neighbours_than_k_still_count_as_k():
+    assert NoveltyArchive(k=15).score([[0, 0]]).tolist() == [0.0]
+    assert NoveltyArchive(k=15).score([[0, 0], [0, 30]]).tolist() == [2.0, 4.0]
+
+
+def test_a_full_archive_lets_go_of_the_lowest_and_of_equals_the_oldest():
+    archive = NoveltyArchive(capacity=2, k=1)
+    archive.score([[0, 0], [0, 1]])  # both score 1
+    assert archive.scores.tolist() == [1.0, 1.0]
+    archive.score([[0, 2]])  # 1 is not above 1
+    assert archive.points.tolist() == [[0, 0], [0, 1]]
+    archive.score([[0, 5]])  # 4 is: the oldest goes
+    assert archive.points.tolist() == [[0, 1], [0, 5]]
+    assert archive.scores.tolist() == [1.0, 4.0]
+
+
+def test_without_places_nothing_enters():
+    archive = NoveltyArchive(capacity=0, k=1)
+    assert archive.score([[0, 0], [0, 4]]).tolist() == [4.0, 4.0]
+    assert len(archive) == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        ({"k": 0}, "k must be an integer of at least 1; was 0"),
+        ({"k": 1.5}, "k must be an integer of at least 1; was 1.5"),
+        ({"capacity": -1}, "capacity must be an integer of at least 0; was -1"),
+        ({"metric": "cosine"}, "metric must be one of 'taxicab', 'euclidean'; was 'cosine'"),
+        ({"metric": None}, "metric must be one of"),
+    ],
+)
+def test_bad_archives(arguments, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        NoveltyArchive(**arguments)
+
+
+@pytest.mark.parametrize("points", [[1, 2], [[1, np.nan]], [["a", "b"]], [[1, 2], [3]], [[1, 2, 3]]])
+def test_bad_points(points):
+    archive = NoveltyArchive()
+    archive.score([[0, 0]])
+    with pytest.raises(ValueError, match="points must"):
+        archive.score(points)
+    assert len(archive) == 1
