@@ -1,0 +1,83 @@
+"""Execute the notebooks for the book: every one whose executed copy is missing or stale.
+
+    python book/execute.py                                  with the parameters of the book
+    python book/execute.py table2-success -p runs 100       one notebook, with parameters of your own
+
+A copy is written under another name and renamed when it is complete, so an interrupted execution leaves none behind.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+from pathlib import Path
+
+import nbformat
+import papermill
+
+from executed import EXECUTED, NOTEBOOKS, ROOT, STAMP, notebooks, requested_parameters, stamp, what_is_wrong
+
+
+def execute(notebook: Path, parameters: dict[str, object]) -> None:
+    """Execute a notebook with those of the parameters that it has."""
+    own = {name: value for name, value in parameters.items() if name in papermill.inspect_notebook(notebook)}
+    EXECUTED.mkdir(exist_ok=True)
+    unfinished = EXECUTED / f".{notebook.name}"
+    watched = sys.stderr.isatty()
+    os.environ["TQDM_DISABLE"] = "" if watched else "1"  # the kernel inherits it: bars are for people
+    papermill.execute_notebook(
+        notebook,
+        unfinished,
+        own,
+        cwd=ROOT,
+        progress_bar=False,
+        stderr_file=sys.stderr if watched else None,
+        extra_arguments=["--log-level=ERROR"],  # of the kernel: it warns of using TCP on this machine
+    )
+    executed = nbformat.read(unfinished, as_version=4)
+    for cell in executed.cells:
+        if cell.cell_type == "code":
+            cell.outputs = [output for output in cell.outputs if not is_progress_bar(output)]
+    executed.metadata[STAMP] = stamp(notebook, own)
+    nbformat.write(executed, unfinished)
+    unfinished.replace(EXECUTED / notebook.name)
+
+
+def is_progress_bar(output: nbformat.NotebookNode) -> bool:
+    """Is this what a progress bar writes? It moves by carriage returns, and ends with a bare new line."""
+    return output.get("name") == "stderr" and ("\r" in output.text or not output.text.strip())
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Execute the notebooks of the book where they are stale.")
+    parser.add_argument("names", nargs="*", metavar="notebook", help="name without folder and ending; default: all")
+    parser.add_argument("-p", nargs=2, action="append", default=[], metavar=("NAME", "VALUE"), help="set a parameter")
+    options = parser.parse_args()
+    try:
+        chosen = [NOTEBOOKS / f"{name}.ipynb" for name in options.names] or notebooks()
+        for notebook in chosen:
+            if not notebook.exists():
+                known = ", ".join(path.stem for path in notebooks())
+                raise ValueError(f"notebook must be one of {known}; was {notebook.stem!r}")
+        given = {name: int(value) if value.isdecimal() else value for name, value in options.p}
+        known = {name for notebook in chosen for name in papermill.inspect_notebook(notebook)}
+        if unknown := given.keys() - known:
+            raise ValueError(f"parameter must be one of {', '.join(sorted(known))}; was {', '.join(sorted(unknown))}")
+        parameters = requested_parameters() | given
+    except ValueError as error:
+        parser.error(str(error))
+    for number, notebook in enumerate(chosen, start=1):
+        label = f"[{number}/{len(chosen)}] {notebook.stem}"
+        if not given and what_is_wrong(notebook, parameters) is None:
+            print(f"{label}: up to date", flush=True)
+            continue
+        print(f"{label}: executing", flush=True)
+        started = time.perf_counter()
+        execute(notebook, parameters)
+        print(f"{label}: {time.perf_counter() - started:.1f} s", flush=True)
+
+
+if __name__ == "__main__":
+    main()

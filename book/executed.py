@@ -1,0 +1,113 @@
+"""Executed copies of the notebooks: how they are made and recognised as stale, and how the book takes them in.
+
+Notebooks are committed without outputs. `book/execute.py` executes each into the folder `executed`, with a stamp in its
+metadata: the digests of the notebook and of the package, and the parameters. As a Sphinx extension, this module
+puts the executed copy in the place of the notebook when a page is read, so that links to the source still lead to the
+clean notebook, and stops the build where a copy is missing or stale.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from pathlib import Path
+
+from sphinx.application import Sphinx
+from sphinx.errors import ExtensionError
+from sphinx.util.typing import ExtensionMetadata
+
+ROOT = Path(__file__).parent.parent
+NOTEBOOKS = ROOT / "notebooks"
+EXECUTED = ROOT / "executed"
+STAMP = "executed_from"  # key in the metadata of an executed copy
+
+
+def notebooks() -> list[Path]:
+    """All notebooks of the book."""
+    return sorted(NOTEBOOKS.glob("*.ipynb"))
+
+
+def requested_parameters() -> dict[str, int]:
+    """The parameters that the whole book is executed with; RUNS in the environment sets the number of runs."""
+    runs = os.environ.get("RUNS", "500")
+    if not runs.isdecimal() or int(runs) < 1:
+        raise ValueError(f"RUNS must be an integer of at least 1; was {runs!r}")
+    return {"runs": int(runs)}
+
+
+def stamp(notebook: Path, parameters: dict[str, object]) -> dict[str, object]:
+    """What an execution of a notebook with these parameters depends on."""
+    package = hashlib.sha256()
+    for file in sorted((ROOT / "safe").rglob("*")):
+        if file.is_file() and "__pycache__" not in file.parts:
+            package.update(f"{file.relative_to(ROOT)}\0".encode() + file.read_bytes())
+    return {
+        "notebook": hashlib.sha256(notebook.read_bytes()).hexdigest(),
+        "package": package.hexdigest(),
+        "parameters": parameters,
+    }
+
+
+def what_is_wrong(notebook: Path, requested: dict[str, object]) -> str | None:
+    """Why the executed copy of a notebook cannot stand for it; None where it can.
+
+    A copy was executed with those of the requested parameters that the notebook has.
+    """
+    copy = EXECUTED / notebook.name
+    if not copy.exists():
+        return "was not executed"
+    found = json.loads(copy.read_text(encoding="utf-8"))["metadata"].get(STAMP, {})
+    parameters = found.get("parameters", {})
+    expected = stamp(notebook, {name: requested[name] for name in parameters if name in requested})
+    if found != expected:
+        changed = [key for key, value in expected.items() if found.get(key) != value]
+        return f"was executed before the {' and the '.join(changed)} changed"
+    return None
+
+
+def collect_numbers() -> dict[str, object]:
+    """What notebooks hand on to the prose of the book: the JSON shown by their cells tagged `numbers`.
+
+    Rows of results become names such as `successes_maze1_safe`.
+    """
+    numbers = {}
+    for notebook in notebooks():
+        for cell in json.loads((EXECUTED / notebook.name).read_text(encoding="utf-8"))["cells"]:
+            if "numbers" in cell["metadata"].get("tags", []):
+                for row in cell["outputs"][0]["data"]["application/json"]:
+                    where = f"{row.pop('maze')}_{row.pop('algorithm')}"
+                    numbers |= {f"{name}_{where}": value for name, value in row.items()}
+    return numbers
+
+
+def _check_and_collect(app: Sphinx, config) -> None:
+    requested = requested_parameters()
+    wrong = [f"{notebook.name} {fault}" for notebook in notebooks() if (fault := what_is_wrong(notebook, requested))]
+    if wrong:
+        raise ExtensionError("the book needs its notebooks executed (make execute): " + "; ".join(wrong))
+    config.myst_substitutions = {
+        name: f"{value:g}" if isinstance(value, float) else str(value) for name, value in collect_numbers().items()
+    }
+
+
+def _swap_in(app: Sphinx, docname: str, source: list[str]) -> None:
+    path = Path(app.env.doc2path(docname))
+    if path.suffix == ".ipynb" and path.parent == NOTEBOOKS:
+        copy = EXECUTED / path.name
+        app.env.note_dependency(str(copy))
+        source[0] = copy.read_text(encoding="utf-8")
+
+
+def _remove_second_thebe(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
+    """The theme and sphinx-thebe both declare THEBE_JS_URL, which a browser reports as an error."""
+    scripts = context.get("script_files", [])
+    declared = [script for script in scripts if "THEBE_JS_URL" in (getattr(script, "attributes", {}).get("body") or "")]
+    context["script_files"] = [script for script in scripts if script not in declared[1:]]
+
+
+def setup(app: Sphinx) -> ExtensionMetadata:
+    app.connect("config-inited", _check_and_collect)
+    app.connect("source-read", _swap_in)
+    app.connect("html-page-context", _remove_second_thebe, priority=900)
+    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

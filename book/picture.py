@@ -1,0 +1,20 @@
+"""Draw book/_static/robot-path.svg, the picture of the README and of the book's first page: make picture."""
+
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+
+import safe
+from safe import figures
+
+SEED = 1
+
+if __name__ == "__main__":
+    figures.use_style()
+    maze = safe.load_maze("maze1")
+    run = safe.evolve(maze, "safe", SEED)
+    if not run.success:
+        raise SystemExit(f"the run with seed {SEED} finds no solution to draw")
+    figure, _ = figures.plot_paths([[(maze, safe.path(maze, run.controller), "")]])
+    figure.savefig(Path(__file__).parent / "_static" / "robot-path.svg", metadata={"Date": None})
+    plt.close(figure)
