@@ -33,7 +33,7 @@ from safe import checks
 from safe.algorithms import COMPONENTS, Algorithm, Parameters, get_algorithm
 from safe.kernel import kernel
 from safe.maze import Maze, MazeArrays, load_maze
-from safe.novelty import ArchiveArrays, archived, empty_archive, score_all
+from safe.novelty import ArchiveArrays, archived, empty_archive, score_cells, score_points
 from safe.operators import Breeding, breed, draw_genomes
 from safe.robot import WEIGHTS, walk_all, walk_space
 
@@ -146,6 +146,7 @@ class State(NamedTuple):
     fitness: np.ndarray  # float64, (population,)
     winners: np.ndarray  # int64, (population,)
     archive: ArchiveArrays
+    crowd: np.ndarray  # int32, (height, width): points of the archive in each cell
     objectives: np.ndarray  # float64, (objective functions, components)
     objective_fitness: np.ndarray  # float64, (objective functions,)
     objective_archive: ArchiveArrays
@@ -204,6 +205,7 @@ def _start(
         fitness=np.zeros(n),
         winners=np.zeros(n, dtype=np.int64),
         archive=empty_archive(parameters.archive, 2),
+        crowd=np.zeros(maze.shape, dtype=np.int32),
         objectives=objectives,
         objective_fitness=np.zeros(m),
         objective_archive=empty_archive(parameters.archive, len(COMPONENTS)),
@@ -267,7 +269,7 @@ def _step_by_step(state: State, settings: Settings, rng: np.random.Generator) ->
         )
 
 
-GOAL, NOVELTY = range(len(COMPONENTS))
+GOAL, NOVELTY = COMPONENTS.index("1 / distance"), COMPONENTS.index("novelty")
 
 
 # Compiled functions
@@ -307,30 +309,45 @@ def _evaluate(state: State, settings: Settings) -> None:
         # at the goal itself 1 / distance has no value: it counts as at distance 1/2
         state.components[GOAL, i] = 1.0 / distance if distance > 0 else 2.0
     if settings.weigh_novelty:
-        score_all(
-            state.endpoints.astype(np.float64),
-            state.archive,
-            settings.k,
-            True,
-            state.nearest,
-            state.components[NOVELTY],
-        )
+        score_cells(state.endpoints, state.archive, state.crowd, settings.k, state.components[NOVELTY])
     if len(state.objectives) > 0:
         best_scores(state.components, state.objectives, state.fitness, state.winners)
 
 
 @kernel
 def best_scores(components: np.ndarray, objectives: np.ndarray, fitness: np.ndarray, winners: np.ndarray) -> None:
-    """Algorithm 1: the fitness of S_i is max_j O_j(S_i), and the first such O_j is its winner."""
+    """Algorithm 1: the fitness of S_i is max_j O_j(S_i), and the first such O_j is its winner.
+
+    Components are never negative, so an objective function that weighs none of them more than an earlier one does
+    cannot win. It is left out, which leaves a handful of a random population.
+    """
+    contenders = np.empty(len(objectives), dtype=np.int64)
+    m = 0
+    for j in range(len(objectives)):
+        if not _is_matched(objectives, j, contenders[:m]):
+            contenders[m] = j
+            m += 1
     for i in range(len(fitness)):
         fitness[i] = -np.inf
-        for j in range(len(objectives)):
+        for j in contenders[:m]:
             score = 0.0  # O_j(S_i), Equation 1
             for c in range(len(components)):
                 score += objectives[j, c] * components[c, i]
             if score > fitness[i]:
                 fitness[i] = score
                 winners[i] = j
+
+
+@kernel
+def _is_matched(objectives: np.ndarray, j: int, earlier: np.ndarray) -> bool:
+    """Does one of the earlier objective functions weigh every component at least as much as the j-th does?"""
+    for e in earlier:
+        weighs_more = False
+        for c in range(objectives.shape[1]):
+            weighs_more |= objectives[j, c] > objectives[e, c]
+        if not weighs_more:
+            return True
+    return False
 
 
 @kernel
@@ -347,7 +364,7 @@ def _keep_best(state: State) -> None:
 @kernel
 def _rate_objectives(state: State, settings: Settings) -> None:
     """Algorithm 2: the fitness of an objective function is the novelty of its genome."""
-    score_all(
+    score_points(
         state.objectives,
         state.objective_archive,
         settings.k,

@@ -95,7 +95,7 @@ class NoveltyArchive:
         if self._arrays is None:
             self._arrays = empty_archive(self.capacity, points.shape[1])
         scores = np.empty(len(points))
-        score_all(points, self._arrays, self.k, self.metric == "taxicab", np.empty(self.k), scores)
+        score_points(points, self._arrays, self.k, self.metric == "taxicab", np.empty(self.k), scores)
         return scores
 
     def __len__(self) -> int:
@@ -131,17 +131,68 @@ def archived(archive: ArchiveArrays) -> tuple[np.ndarray, np.ndarray]:
 
 # Compiled functions
 #
-# The nearest neighbours are looked for among points sorted by their first coordinate, outwards from the point itself:
+# There are two ways to find the nearest neighbours, and both are exact.
+#
+# End points are cells of a maze, so taxicab distances are whole numbers and many points share a cell. `score_cells` keeps
+# count of the points in every cell, and adds the counts up ring by ring around a point until k neighbours are found.
+#
+# `score_points` serves any points. It looks among points sorted by their first coordinate, outwards from the point itself:
 # the difference in one coordinate alone is never more than the distance, so the search ends where that difference
 # reaches the k-th smallest distance found so far. Euclidean distances stay squared until the nearest are found: the
 # order is the same, and k roots are taken, not all.
 
 
 @kernel
-def score_all(
+def score_cells(cells: np.ndarray, archive: ArchiveArrays, crowd: np.ndarray, k: int, scores: np.ndarray) -> None:
+    """Score cells (int64, (n, 2), row and column) by taxicab distance, in order, offering each to the archive right after.
+
+    `crowd`, int32 of the shape of the maze, counts the archive's points in each cell, before and after.
+    """
+    n = len(cells)
+    for i in range(n):
+        crowd[cells[i, 0], cells[i, 1]] += 1
+    for i in range(n):
+        row, column = cells[i]
+        size, _, lowest = archive.counts
+        scores[i] = _sum_of_nearest(row, column, crowd, min(k, n - 1 + size)) / k
+        leaving_row, leaving_column = np.int64(0), np.int64(0)
+        is_full = size > 0 and size == len(archive.scores)
+        if is_full:
+            leaving_row, leaving_column = np.int64(archive.points[0, lowest]), np.int64(archive.points[1, lowest])
+        if offer(archive, cells[i], scores[i]):
+            crowd[row, column] += 1
+            if is_full:
+                crowd[leaving_row, leaving_column] -= 1
+    for i in range(n):
+        crowd[cells[i, 0], cells[i, 1]] -= 1
+
+
+@kernel
+def _sum_of_nearest(row: int, column: int, crowd: np.ndarray, wanted: int) -> int:
+    """The sum of the distances from a point in this cell to the `wanted` nearest others in the crowd."""
+    height, width = crowd.shape
+    found = crowd[row, column] - 1  # without the point itself
+    total = 0
+    radius = 0
+    while found < wanted:
+        radius += 1
+        on_ring = 0
+        for r in range(max(row - radius, 0), min(row + radius, height - 1) + 1):
+            aside = radius - abs(r - row)
+            if column + aside < width:
+                on_ring += crowd[r, column + aside]
+            if 0 < aside <= column:
+                on_ring += crowd[r, column - aside]
+        total += radius * min(on_ring, wanted - found)
+        found += on_ring
+    return total
+
+
+@kernel
+def score_points(
     points: np.ndarray, archive: ArchiveArrays, k: int, taxicab: bool, nearest: np.ndarray, scores: np.ndarray
 ) -> None:
-    """Score the points in order, offering each to the archive right after. `nearest` (k places) is worked in."""
+    """Score points in order, offering each to the archive right after. `nearest` (k places) is worked in."""
     n = len(points)
     order = np.argsort(points[:, 0])
     place = np.empty(n, dtype=np.int64)  # of each point in that order
@@ -202,8 +253,8 @@ def _along_axis(difference: float, taxicab: bool) -> float:
 
 
 @kernel
-def offer(archive: ArchiveArrays, point: np.ndarray, score: float) -> None:
-    """Let a point into the archive where there is room, or where it scores above the lowest."""
+def offer(archive: ArchiveArrays, point: np.ndarray, score: float) -> bool:
+    """Let a point into the archive where there is room, or where it scores above the lowest. Has it entered?"""
     points, scores, entry, counts = archive
     capacity = len(scores)
     size, entered, lowest = counts
@@ -213,7 +264,7 @@ def offer(archive: ArchiveArrays, point: np.ndarray, score: float) -> None:
     elif capacity > 0 and score > scores[lowest]:
         gap = lowest
     else:
-        return
+        return False
     # the gap moves to where the newcomer belongs in the order of the first coordinate
     first_coordinate = points[0]
     target = gap
@@ -230,6 +281,7 @@ def offer(archive: ArchiveArrays, point: np.ndarray, score: float) -> None:
     counts[1] = entered + 1
     if size == capacity:
         counts[2] = _lowest_and_oldest(scores, entry)
+    return True
 
 
 @kernel

@@ -149,8 +149,8 @@ GOOD = "size 3,3\nstart 0,0\ngoal 2,2\n"
         (GOOD + "wall 0,1 2,1", "goal must be reachable"),
         (GOOD.replace("2,2", "0,0"), "goal must be another cell than the start"),
         (GOOD.replace("2,2", "3,0"), r"goal must be a \(row, column\) within the 3 by 3 cells; was \(3, 0\)"),
-        (GOOD.replace("3,3", "0,3"), "size must be 1 to 4096 cells a side; was 0,3"),
-        (GOOD.replace("3,3", "99999,99999"), "size must be 1 to 4096 cells a side"),
+        (GOOD.replace("3,3", "0,3"), "size must be 1 to 2048 cells a side; was 0,3"),
+        (GOOD.replace("3,3", "9999,9999"), "size must be 1 to 2048 cells a side"),
         (GOOD.replace("3,3", "9999999999999,3"), "size must be followed by height,width"),
     ],
 )
@@ -164,7 +164,7 @@ def test_bad_lists(text, complaint):
     [
         ([[0, 0], [0]], (0, 0), (0, 1), "walls must be a rectangle"),
         ([], (0, 0), (0, 1), "walls must be a rectangle"),
-        (np.zeros((1, 5000)), (0, 0), (0, 1), "walls must be a rectangle of 1 to 4096 cells a side"),
+        (np.zeros((1, 5000)), (0, 0), (0, 1), "walls must be a rectangle of 1 to 2048 cells a side"),
         ([[0, 0]], (0, 2), (0, 1), "start must be a"),
         ([[0, 0]], (0, -1), (0, 1), "start must be a"),
         ([[0, 0]], "start", (0, 1), "start must be a"),

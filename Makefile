@@ -1,0 +1,55 @@
+# `make` alone lists what can be made. `make book` and `make test` start from nothing but Python and make.
+
+PYTHON ?= python3
+RUNS ?= 500
+export RUNS
+
+BIN := .venv/bin
+INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
+KERNEL_TESTS := tests/test_robot.py tests/test_novelty.py tests/test_operators.py tests/test_evolution.py
+
+.PHONY: help env execute book test format picture constraints clean
+
+help: ## list the targets
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+env: .venv/installed ## the environment alone, in .venv (PYTHON=python3.12 for another Python)
+
+execute: env ## execute the notebooks that are stale, with RUNS runs of each experiment (500)
+	$(BIN)/python book/execute.py
+
+book: execute ## everything from nothing: environment, every notebook, the book (RUNS=20 for a class)
+	$(BIN)/jupyter-book build . --toc book/_toc.yml --warningiserror --keep-going --nitpick
+	@echo "The book: _build/html/index.html"
+
+test: .venv/installed-for-tests ## everything from nothing: environment, the tests
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/pytest
+	NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.numba-boundscheck $(BIN)/pytest $(KERNEL_TESTS)
+
+format: .venv/installed-for-tests ## bring the code into its form
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+picture: env ## draw the picture of the README anew
+	$(BIN)/python book/picture.py
+
+constraints: env ## choose the newest versions of all packages anew (constraints.txt)
+	$(BIN)/python -m pip install --quiet uv
+	$(BIN)/uv pip compile --universal --python-version 3.11 --all-extras --upgrade --no-annotate \
+		--custom-compile-command "make constraints" --output-file constraints.txt pyproject.toml
+
+clean: ## remove what can be made again, but for the environment and the results
+	rm -rf _build executed .numba-boundscheck .pytest_cache .hypothesis .ruff_cache
+	find safe tests book -name __pycache__ -exec rm -rf {} +
+
+.venv/installed: pyproject.toml requirements.txt constraints.txt
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; this is " + sys.version.split()[0] + ". Name another: make PYTHON=...")'
+	$(PYTHON) -m venv .venv
+	$(INSTALL) --requirement requirements.txt
+	touch $@
+
+.venv/installed-for-tests: .venv/installed
+	$(INSTALL) --editable .[test]
+	touch $@

@@ -1,0 +1,73 @@
+import numpy as np
+import pandas as pd
+import pytest
+
+from safe import statistics
+
+
+def runs(successes, n, generations=(), **columns):
+    success = np.arange(n) < successes
+    generation = np.full(n, 499)
+    generation[: len(generations)] = generations
+    return pd.DataFrame({"run": np.arange(n), "success": success, "generation": generation, **columns})
+
+
+def test_the_papers_numbers_come_along():
+    paper = statistics.published()
+    assert len(paper) == 50
+    assert set(paper.maze) == {"maze1", "maze2"}
+    assert paper[paper.quantity.str.startswith("weight of")].groupby("maze").size().tolist() == [16, 16]
+
+
+@pytest.mark.parametrize(
+    ("successes", "n", "low", "high"),
+    # Newcombe, Statistics in Medicine 17 (1998) 857-872, Table I, method 3
+    [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611), (1, 29, 0.0061, 0.1718)],
+)
+def test_wilsons_interval(successes, n, low, high):
+    assert statistics.success_interval(successes, n) == pytest.approx((low, high), abs=5e-5)
+
+
+def test_a_table_beside_the_papers():
+    table = statistics.success_table(
+        {
+            ("maze1", "safe"): runs(2, 4, [10, 20]),
+            ("maze1", "standard"): runs(0, 4),
+            ("my maze", "safe"): runs(4, 4, [1, 1, 1, 5]),
+        }
+    )
+    safe = table.loc["maze1", "safe"]
+    assert (safe.successes, safe.runs, safe["mean"], safe.sd) == (2, 4, 15, 5)
+    assert (safe.paper_successes, safe.paper_runs, safe.paper_mean, safe.paper_sd) == (328, 500, 141, 130)
+    assert safe.p_value == pytest.approx(0.6117, abs=1e-3)
+    assert np.isnan(table.loc[("maze1", "standard"), "mean"])
+    assert np.isnan(table.loc[("my maze", "safe"), ["paper_successes", "p_value"]].to_numpy(float)).all()
+
+    words = statistics.readable_success_table(table)
+    assert words.index.names == ["maze", "algorithm"]
+    assert words.loc["maze1", "safe"].tolist() == [
+        "2 of 4",
+        "1 to 3",
+        "328 of 500",
+        "yes",
+        "0.61",
+        "15 (5)",
+        "141 (130)",
+    ]
+    assert words.loc["my maze", "safe"].tolist() == ["4 of 4", "2 to 4", "–", "–", "–", "2 (2)", "–"]
+
+
+def test_whether_the_paper_lies_within():
+    inside = {"maze1": 328, "maze2": 17}
+    outside = {"maze1": 250, "maze2": 100}
+    for expected, counts in (("yes", inside), ("no", outside)):
+        results = {(maze, "safe"): runs(count, 500) for maze, count in counts.items()}
+        words = statistics.readable_success_table(statistics.success_table(results))
+        assert set(words["paper within"]) == {expected}
+
+
+def test_first_solutions_are_successes_in_order_and_then_the_nearest():
+    table = pd.DataFrame({"run": range(5), "success": [False, True, False, True, False], "distance": [9, 2, 4, 0, 4]})
+    assert statistics.first_solutions(table, 4).run.tolist() == [1, 3, 2, 4]
+    assert statistics.first_solutions(table, 9).run.tolist() == [1, 3, 2, 4, 0]
+    assert list(statistics.first_solutions(table, 1)) == list(table)
