@@ -133,18 +133,18 @@ def archived(archive: ArchiveArrays) -> tuple[np.ndarray, np.ndarray]:
 #
 # There are two ways to find the nearest neighbours, and both are exact.
 #
-# End points are cells of a maze, so taxicab distances are whole numbers and many points share a cell. `score_cells` keeps
-# count of the points in every cell, and adds the counts up ring by ring around a point until k neighbours are found.
+# End points are cells of a maze, so taxicab distances are whole numbers and many points share a cell. `score_cells`
+# keeps count of the points in every cell, and adds the counts up ring by ring around a point until it has k neighbours.
 #
-# `score_points` serves any points. It looks among points sorted by their first coordinate, outwards from the point itself:
-# the difference in one coordinate alone is never more than the distance, so the search ends where that difference
-# reaches the k-th smallest distance found so far. Euclidean distances stay squared until the nearest are found: the
-# order is the same, and k roots are taken, not all.
+# `score_points` serves any points. It looks among points sorted by their first coordinate, outwards from the point
+# itself: the difference in one coordinate alone is never more than the distance, so the search ends where that
+# difference reaches the k-th smallest distance found so far. Euclidean distances stay squared until the nearest are
+# found: the order is the same, and k roots are taken, not all.
 
 
 @kernel
 def score_cells(cells: np.ndarray, archive: ArchiveArrays, crowd: np.ndarray, k: int, scores: np.ndarray) -> None:
-    """Score cells (int64, (n, 2), row and column) by taxicab distance, in order, offering each to the archive right after.
+    """Score cells (int64, (n, 2), row and column) by taxicab distance, in order, offering each to the archive.
 
     `crowd`, int32 of the shape of the maze, counts the archive's points in each cell, before and after.
     """
@@ -192,7 +192,7 @@ def _sum_of_nearest(row: int, column: int, crowd: np.ndarray, wanted: int) -> in
 def score_points(
     points: np.ndarray, archive: ArchiveArrays, k: int, taxicab: bool, nearest: np.ndarray, scores: np.ndarray
 ) -> None:
-    """Score points in order, offering each to the archive right after. `nearest` (k places) is worked in."""
+    """Score points in order, offering each to the archive. `nearest` (k places) is worked in."""
     n = len(points)
     order = np.argsort(points[:, 0])
     place = np.empty(n, dtype=np.int64)  # of each point in that order
