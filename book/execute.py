@@ -22,7 +22,9 @@ from executed import EXECUTED, NOTEBOOKS, ROOT, STAMP, notebooks, requested_para
 
 def execute(notebook: Path, parameters: dict[str, object]) -> None:
     """Execute a notebook with those of the parameters that it has."""
-    own = {name: value for name, value in parameters.items() if name in papermill.inspect_notebook(notebook)}
+    declared = papermill.inspect_notebook(notebook)
+    own = {name: value for name, value in parameters.items() if name in declared}
+    departures = {name: value for name, value in own.items() if repr(value) != declared[name]["default"]}
     EXECUTED.mkdir(exist_ok=True)
     unfinished = EXECUTED / f".{notebook.name}"
     watched = sys.stderr.isatty()
@@ -30,11 +32,11 @@ def execute(notebook: Path, parameters: dict[str, object]) -> None:
     papermill.execute_notebook(
         notebook,
         unfinished,
-        own,
+        departures,  # no cell of parameters is put in that says what the notebook says already
         cwd=ROOT,
         progress_bar=False,
         stderr_file=sys.stderr if watched else None,
-        extra_arguments=["--log-level=ERROR"],  # of the kernel: it warns of using TCP on this machine
+        extra_arguments=["--log-level=CRITICAL"],  # of the kernel: it warns of TCP, and of being shut down
     )
     executed = nbformat.read(unfinished, as_version=4)
     for cell in executed.cells:

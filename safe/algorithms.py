@@ -22,7 +22,7 @@ from dataclasses import dataclass, fields
 
 from safe import checks
 from safe.novelty import ARCHIVE_CAPACITY, K
-from safe.robot import MOST_STEPS, STEPS
+from safe.robot import STEPS
 
 COMPONENTS = ("1 / distance", "novelty")  # what an objective function weighs
 COEFFICIENTS = tuple(string.ascii_lowercase[: len(COMPONENTS)])  # what the weights are called: a, b
@@ -127,8 +127,7 @@ class Parameters:
             if field.type == "float":
                 value = checks.probability(field.name, value)
             else:
-                high = MOST_STEPS if field.name == "steps" else MOST
-                value = checks.integer(field.name, value, lowest.get(field.name, 1), high)
+                value = checks.integer(field.name, value, lowest.get(field.name, 1), checks.MOST)
             object.__setattr__(self, field.name, value)
         for name in ("population", "objectives", "elites"):
             if getattr(self, name) % 2:
@@ -143,6 +142,3 @@ class Parameters:
     def evaluations(self) -> int:
         """Solutions that a run evaluates at the most; random search evaluates exactly these."""
         return self.population * self.generations
-
-
-MOST = 1_000_000  # of anything that is counted: keeps a mistyped size from filling the memory

@@ -11,6 +11,8 @@ from numbers import Integral, Real
 
 import numpy as np
 
+MOST = 1_000_000  # of anything that is counted or stored: keeps a mistyped size from filling the memory
+
 
 def shown(value: object) -> str:
     """The value as an error message shows it: its repr, cut where it is long."""

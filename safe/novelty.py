@@ -51,7 +51,7 @@ class NoveltyArchive:
     Raises
     ------
     ValueError
-        Where capacity is negative, k is less than 1 or the metric is unknown.
+        Where capacity is not in 0..1,000,000, k not in 1..1,000,000, or the metric is unknown.
 
     Examples
     --------
@@ -69,8 +69,8 @@ class NoveltyArchive:
     """
 
     def __init__(self, capacity: int = ARCHIVE_CAPACITY, k: int = K, metric: str = "taxicab") -> None:
-        self.capacity = checks.integer("capacity", capacity, 0)
-        self.k = checks.integer("k", k, 1)
+        self.capacity = checks.integer("capacity", capacity, 0, checks.MOST)
+        self.k = checks.integer("k", k, 1, checks.MOST)
         self.metric = checks.choice("metric", metric, METRICS)
         self._arrays: ArchiveArrays | None = None  # made with the first points, which tell the dimensions
 

@@ -23,7 +23,6 @@ from safe.maze import SENSORS, Maze, MazeArrays, load_maze
 READINGS = len(SENSORS)  # s_1..s_8
 WEIGHTS = 2 * READINGS  # p_1..p_16
 STEPS = 300
-MOST_STEPS = 1_000_000
 
 
 def path(maze: Maze | str, controller: np.ndarray, steps: int = STEPS) -> np.ndarray:
@@ -59,7 +58,7 @@ def path(maze: Maze | str, controller: np.ndarray, steps: int = STEPS) -> np.nda
     """
     maze = load_maze(maze)
     controller = checks.array("controller", controller, (WEIGHTS,), -1, 1)
-    steps = checks.integer("steps", steps, 0, MOST_STEPS)
+    steps = checks.integer("steps", steps, 0, checks.MOST)
     trail, stood_at = walk_space(maze.shape, steps)
     cells = np.empty((steps + 1, 2), dtype=np.int64)
     walk_path(maze.arrays, controller, steps, trail, stood_at, cells)
@@ -95,7 +94,7 @@ def endpoints(maze: Maze | str, controllers: np.ndarray, steps: int = STEPS) -> 
     """
     maze = load_maze(maze)
     controllers = checks.array("controllers", controllers, (None, WEIGHTS), -1, 1)
-    steps = checks.integer("steps", steps, 0, MOST_STEPS)
+    steps = checks.integer("steps", steps, 0, checks.MOST)
     ends = np.empty((len(controllers), 2), dtype=np.int64)
     trail, stood_at = walk_space(maze.shape, steps)
     walk_all(maze.arrays, controllers, steps, trail, stood_at, ends)

@@ -9,6 +9,8 @@ import numpy as np
 import pandas as pd
 from scipy import stats
 
+from safe import checks
+
 CONFIDENCE = 0.95
 
 
@@ -99,6 +101,13 @@ def readable_success_table(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def first_solutions(results: pd.DataFrame, n: int) -> pd.DataFrame:
-    """The first n successful runs of an experiment; where there are fewer, then those that came closest to the goal."""
+    """The first n successful runs of an experiment; where there are fewer, then those that came closest to the goal.
+
+    Raises
+    ------
+    ValueError
+        Where n is less than 1.
+    """
+    n = checks.integer("n", n, 1)
     miss = results.distance.where(~results.success, 0)
     return results.assign(miss=miss).sort_values(["miss", "run"]).drop(columns="miss").head(n)

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from safe import NoveltyArchive
+from safe.novelty import archived, empty_archive, score_cells
 from tests import oracle
 
 DATA = Path(__file__).parent / "data"
@@ -24,6 +25,35 @@ def test_every_reference_score(points, scores, metric):
     got = np.array([archive.score(generation) for generation in generations])
     assert got.shape == expected.shape == (10, 200)
     np.testing.assert_allclose(got, expected, rtol=0, atol=1e-12)
+
+
+def test_every_reference_score_by_counting_cells():
+    with np.load(DATA / "novelty.npz") as reference:
+        generations, expected = reference["endpoints"].astype(np.int64), reference["endpoint_novelty"]
+    archive, crowd = empty_archive(1000, 2), np.zeros((100, 100), dtype=np.int32)
+    for cells, scores in zip(generations, expected, strict=True):
+        got = np.empty(len(cells))
+        score_cells(cells, archive, crowd, 15, got)
+        np.testing.assert_allclose(got, scores, rtol=0, atol=1e-12)
+
+
+@given(
+    st.lists(hnp.arrays(np.int64, st.tuples(st.integers(0, 9), st.just(2)), elements=st.integers(0, 7)), max_size=6),
+    st.integers(0, 12),
+    st.integers(1, 20),
+)
+def test_counting_cells_gives_the_scores_and_the_archive_of_measuring_points(generations, capacity, k):
+    points, cells = NoveltyArchive(capacity, k), empty_archive(capacity, 2)
+    crowd = np.zeros((8, 8), dtype=np.int32)
+    for generation in generations:
+        scores = np.empty(len(generation))
+        score_cells(generation, cells, crowd, k, scores)
+        assert scores.tolist() == points.score(generation).tolist()
+        assert archived(cells)[0].tolist() == points.points.tolist() or len(points) == 0
+        assert archived(cells)[1].tolist() == points.scores.tolist()
+        expected = np.zeros_like(crowd)
+        np.add.at(expected, tuple(archived(cells)[0].astype(int).T), 1)
+        assert (crowd == expected).all()
 
 
 def generations_of_points():
@@ -100,9 +130,9 @@ def test_without_places_nothing_enters():
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        ({"k": 0}, "k must be an integer of at least 1; was 0"),
-        ({"k": 1.5}, "k must be an integer of at least 1; was 1.5"),
-        ({"capacity": -1}, "capacity must be an integer of at least 0; was -1"),
+        ({"k": 0}, "k must be an integer from 1 to 1000000; was 0"),
+        ({"k": 1.5}, "k must be an integer from 1 to 1000000; was 1.5"),
+        ({"capacity": -1}, "capacity must be an integer from 0 to 1000000; was -1"),
         ({"metric": "cosine"}, "metric must be one of 'taxicab', 'euclidean'; was 'cosine'"),
         ({"metric": None}, "metric must be one of"),
     ],

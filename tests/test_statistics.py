@@ -71,3 +71,5 @@ def test_first_solutions_are_successes_in_order_and_then_the_nearest():
     assert statistics.first_solutions(table, 4).run.tolist() == [1, 3, 2, 4]
     assert statistics.first_solutions(table, 9).run.tolist() == [1, 3, 2, 4, 0]
     assert list(statistics.first_solutions(table, 1)) == list(table)
+    with pytest.raises(ValueError, match="n must be an integer of at least 1; was 0"):
+        statistics.first_solutions(table, 0)
