@@ -70,6 +70,11 @@ class Algorithm:
         if self.rating != "none" and (len(weights) == 0 or len(weights) % 2):
             raise ValueError(f"objectives must be an even number of them where they evolve; was {len(weights)}")
 
+    @property
+    def is_random_search(self) -> bool:
+        """Is there nobody to judge?"""
+        return self.objectives == ()
+
 
 ALGORITHMS = {
     algorithm.name: algorithm

@@ -223,7 +223,7 @@ def controller_of(row: pd.Series) -> np.ndarray:
 
 
 def _table(experiment: Experiment, runs) -> pd.DataFrame:
-    coefficients = [] if experiment.algorithm.objectives == () else list(COEFFICIENTS)
+    coefficients = [] if experiment.algorithm.is_random_search else COEFFICIENTS
     columns = ["run", "success", "generation", "distance", *WEIGHT_COLUMNS, *coefficients, "evaluations", "seconds"]
     rows = [
         (r, o.success, o.generation, o.distance, *o.controller, *o.coefficients, o.evaluations, seconds)

@@ -10,6 +10,9 @@ import pandas as pd
 from scipy import stats
 
 from safe import checks
+from safe.algorithms import ALGORITHMS, Parameters
+from safe.experiment import Experiment
+from safe.maze import load_maze, maze_names
 
 CONFIDENCE = 0.95
 
@@ -32,51 +35,69 @@ def success_interval(successes: int, runs: int) -> tuple[float, float]:
     return float(interval.low), float(interval.high)
 
 
-def success_table(results: Mapping[tuple[str, str], pd.DataFrame]) -> pd.DataFrame:
-    """Successes and generations to success, beside the paper's.
+def success_table(results: Mapping[Experiment, pd.DataFrame]) -> pd.DataFrame:
+    """Successes and generations to success, beside the paper's where an experiment is one of the paper's.
 
     Parameters
     ----------
-    results : mapping of (maze, algorithm) to DataFrame
+    results : mapping of Experiment to DataFrame
         The runs of each experiment, as `safe.run` gives them.
 
     Returns
     -------
-    pandas.DataFrame, one row for each experiment, indexed by maze and algorithm
+    pandas.DataFrame, one row for each experiment, indexed by the names of maze and algorithm
         successes, runs; low and high, the ends of the 95 % interval of the rate; mean and sd (ddof = 0) of the
         generations to success; paper_successes, paper_runs, paper_mean and paper_sd; p_value, of Fisher's exact
         test that both rates are the same. Not a number where there is none.
     """
-    paper = published().set_index(["maze", "item", "quantity"])[["mean", "sd", "n"]]
-    nothing = pd.Series({"mean": np.nan, "sd": np.nan, "n": np.nan})
     rows = {}
-    for (maze, algorithm), runs in results.items():
-        generations = runs.generation[runs.success]
-        successes = len(generations)
+    for experiment, runs in results.items():
+        # random search goes on after a success, so it has no generations to success
+        counted = runs.success & (not experiment.algorithm.is_random_search)
+        generations = runs.generation[counted]
+        successes = int(runs.success.sum())
         low, high = success_interval(successes, len(runs))
-        counted, timed = (
-            paper.loc[key] if (key := (maze, algorithm, quantity)) in paper.index else nothing
-            for quantity in ("successes", "generations to success")
+        paper, paper_time = (
+            _published_for(experiment, "successes"),
+            _published_for(experiment, "generations to success"),
         )
         p_value = np.nan
-        if not np.isnan(counted["n"]):
-            both = [(successes, len(runs) - successes), (counted["mean"], counted["n"] - counted["mean"])]
+        if not np.isnan(paper["n"]):
+            both = [(successes, len(runs) - successes), (paper["mean"], paper["n"] - paper["mean"])]
             p_value = stats.fisher_exact(np.array(both, dtype=int)).pvalue
-        rows[maze, algorithm] = {
+        rows[experiment.maze.name, experiment.algorithm.name] = {
             "successes": successes,
             "runs": len(runs),
             "low": low,
             "high": high,
             "mean": generations.mean(),
             "sd": generations.std(ddof=0),
-            "paper_successes": counted["mean"],
-            "paper_runs": counted["n"],
-            "paper_mean": timed["mean"],
-            "paper_sd": timed["sd"],
+            "paper_successes": paper["mean"],
+            "paper_runs": paper["n"],
+            "paper_mean": paper_time["mean"],
+            "paper_sd": paper_time["sd"],
             "p_value": p_value,
         }
-    table = pd.DataFrame.from_dict(rows, orient="index")
-    return table.rename_axis(["maze", "algorithm"])
+    return pd.DataFrame.from_dict(rows, orient="index").rename_axis(["maze", "algorithm"])
+
+
+def _published_for(experiment: Experiment, quantity: str) -> pd.Series:
+    """Mean, sd and n of a quantity in the paper; not a number where the paper has no such experiment or quantity.
+
+    What an experiment is called does not make it the paper's: its maze, algorithm and parameters do.
+    """
+    maze, algorithm = experiment.maze, experiment.algorithm
+    is_the_papers = (
+        maze.name in maze_names()
+        and maze == load_maze(maze.name)
+        and algorithm == ALGORITHMS.get(algorithm.name)
+        and experiment.parameters == Parameters()
+    )
+    paper = published()
+    found = paper[(paper.maze == maze.name) & (paper["item"] == algorithm.name) & (paper.quantity == quantity)]
+    if not is_the_papers or found.empty:
+        return pd.Series({"mean": np.nan, "sd": np.nan, "n": np.nan})
+    return found[["mean", "sd", "n"]].iloc[0]
 
 
 def readable_success_table(table: pd.DataFrame) -> pd.DataFrame:

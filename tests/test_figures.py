@@ -48,7 +48,9 @@ def test_one_drawing_for_each_maze_and_path():
 
 
 def test_rates_of_success_with_the_papers():
-    table = statistics.success_table({("maze1", "safe"): runs(3, 4), ("maze1", "random"): runs(0, 4)})
+    table = statistics.success_table(
+        {safe.Experiment("safe", "maze1"): runs(3, 4), safe.Experiment("random", "maze1"): runs(0, 4)}
+    )
     _, (axes,) = figures.plot_success(table)
     assert [label.get_text() for label in axes.get_yticklabels()] == ["random", "safe"]
     ours, *_, paper = (line for line in axes.get_lines() if len(line.get_xdata()) == 2 and line.get_marker() in "ox")

@@ -2,6 +2,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+import safe
 from safe import statistics
 
 
@@ -28,19 +29,26 @@ def test_wilsons_interval(successes, n, low, high):
     assert statistics.success_interval(successes, n) == pytest.approx((low, high), abs=5e-5)
 
 
+def experiment(maze, algorithm, **options):
+    return safe.Experiment(algorithm, maze, **options)
+
+
 def test_a_table_beside_the_papers():
+    mine = safe.Maze.from_drawing("S.G", name="my maze")
     table = statistics.success_table(
         {
-            ("maze1", "safe"): runs(2, 4, [10, 20]),
-            ("maze1", "standard"): runs(0, 4),
-            ("my maze", "safe"): runs(4, 4, [1, 1, 1, 5]),
+            experiment("maze1", "safe"): runs(2, 4, [10, 20]),
+            experiment("maze1", "standard"): runs(0, 4),
+            experiment("maze1", "random"): runs(1, 4),
+            experiment(mine, "safe"): runs(4, 4, [1, 1, 1, 5]),
         }
     )
-    safe = table.loc["maze1", "safe"]
-    assert (safe.successes, safe.runs, safe["mean"], safe.sd) == (2, 4, 15, 5)
-    assert (safe.paper_successes, safe.paper_runs, safe.paper_mean, safe.paper_sd) == (328, 500, 141, 130)
-    assert safe.p_value == pytest.approx(0.6117, abs=1e-3)
+    ours = table.loc["maze1", "safe"]
+    assert (ours.successes, ours.runs, ours["mean"], ours.sd) == (2, 4, 15, 5)
+    assert (ours.paper_successes, ours.paper_runs, ours.paper_mean, ours.paper_sd) == (328, 500, 141, 130)
+    assert ours.p_value == pytest.approx(0.6117, abs=1e-3)
     assert np.isnan(table.loc[("maze1", "standard"), "mean"])
+    assert np.isnan(table.loc[("maze1", "random"), "mean"])
     assert np.isnan(table.loc[("my maze", "safe"), ["paper_successes", "p_value"]].to_numpy(float)).all()
 
     words = statistics.readable_success_table(table)
@@ -57,11 +65,25 @@ def test_a_table_beside_the_papers():
     assert words.loc["my maze", "safe"].tolist() == ["4 of 4", "2 to 4", "–", "–", "–", "2 (2)", "–"]
 
 
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"maze": safe.Maze.from_drawing("S.G", name="maze1")},
+        {"algorithm": safe.Algorithm("safe", objectives=[(1, 0)])},
+        {"parameters": safe.Parameters(k=14)},
+    ],
+)
+def test_what_is_only_called_like_the_papers_is_not_compared_with_it(change):
+    table = statistics.success_table({safe.Experiment(**{"algorithm": "safe", "maze": "maze1", **change}): runs(2, 4)})
+    assert table.index.tolist() == [("maze1", "safe")]
+    assert np.isnan(table.paper_successes.iloc[0])
+
+
 def test_whether_the_paper_lies_within():
     inside = {"maze1": 328, "maze2": 17}
     outside = {"maze1": 250, "maze2": 100}
     for expected, counts in (("yes", inside), ("no", outside)):
-        results = {(maze, "safe"): runs(count, 500) for maze, count in counts.items()}
+        results = {experiment(maze, "safe"): runs(count, 500) for maze, count in counts.items()}
         words = statistics.readable_success_table(statistics.success_table(results))
         assert set(words["paper within"]) == {expected}
 
