@@ -99,15 +99,17 @@ def _swap_in(app: Sphinx, docname: str, source: list[str]) -> None:
         source[0] = copy.read_text(encoding="utf-8")
 
 
-def _remove_second_thebe(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
-    """The theme and sphinx-thebe both declare THEBE_JS_URL, which a browser reports as an error."""
-    scripts = context.get("script_files", [])
-    declared = [script for script in scripts if "THEBE_JS_URL" in (getattr(script, "attributes", {}).get("body") or "")]
-    context["script_files"] = [script for script in scripts if script not in declared[1:]]
+def _remove_thebe(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
+    """Jupyter Book prepares every page to load thebe from a CDN, and declares its address twice; no page uses it."""
+
+    def is_thebe(script) -> bool:
+        return "THEBE_JS_URL" in (script.attributes.get("body") or "") or "sphinx-thebe" in (script.filename or "")
+
+    context["script_files"] = [script for script in context.get("script_files", []) if not is_thebe(script)]
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:
     app.connect("config-inited", _check_and_collect)
     app.connect("source-read", _swap_in)
-    app.connect("html-page-context", _remove_second_thebe, priority=900)
+    app.connect("html-page-context", _remove_thebe, priority=900)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -14,6 +14,7 @@ import os
 import platform
 import sqlite3
 import subprocess
+import time
 from collections.abc import Iterable
 from datetime import UTC, datetime
 from pathlib import Path
@@ -24,6 +25,7 @@ import numpy as np
 from safe import checks
 from safe.evolution import Run
 
+_PATIENCE = 60  # seconds to wait for other processes that write
 _LAYOUT = 1  # of the tables below
 _APPLICATION = 0x53414645  # "SAFE": tells a store from other SQLite files
 _TABLES = """
@@ -92,30 +94,28 @@ class Store:
         if not path.name:  # "" would be a database that SQLite throws away at the end
             raise ValueError("no file name")
         path.parent.mkdir(parents=True, exist_ok=True)
-        return sqlite3.connect(path, timeout=60)
+        return sqlite3.connect(path, timeout=_PATIENCE)
 
     @staticmethod
     def _set_up(connection: sqlite3.Connection) -> None:
-        connection.execute("PRAGMA journal_mode = WAL")
-        connection.execute("PRAGMA synchronous = NORMAL")
         connection.isolation_level = None  # transactions are begun by hand
+        connection.execute("BEGIN")  # all that is read here is of one moment
+        (application,) = connection.execute("PRAGMA application_id").fetchone()
+        (layout,) = connection.execute("PRAGMA user_version").fetchone()
+        is_new = not _has_tables(connection)
+        connection.execute("COMMIT")
+        if not is_new and application != _APPLICATION:
+            raise ValueError("some other database")
+        if layout > _LAYOUT:
+            raise ValueError(f"made by a newer version, with layout {layout}; this one reads up to {_LAYOUT}")
+        _switch_to_wal(connection)
+        connection.execute("PRAGMA synchronous = NORMAL")
         connection.execute("BEGIN IMMEDIATE")  # of two processes that make the file, one waits for the other
-        try:
-            (application,) = connection.execute("PRAGMA application_id").fetchone()
-            (layout,) = connection.execute("PRAGMA user_version").fetchone()
-            (tables,) = connection.execute("SELECT count(*) FROM sqlite_master").fetchone()
-            if tables and application != _APPLICATION:
-                raise ValueError("some other database")
-            if layout > _LAYOUT:
-                raise ValueError(f"made by a newer version, with layout {layout}; this one reads up to {_LAYOUT}")
-            if not tables:
-                for statement in _TABLES.split(";"):
-                    connection.execute(statement)
-                connection.execute(f"PRAGMA application_id = {_APPLICATION}")
-                connection.execute(f"PRAGMA user_version = {_LAYOUT}")
-        except BaseException:
-            connection.execute("ROLLBACK")
-            raise
+        if not _has_tables(connection):
+            for statement in _TABLES.split(";"):
+                connection.execute(statement)
+            connection.execute(f"PRAGMA application_id = {_APPLICATION}")
+            connection.execute(f"PRAGMA user_version = {_LAYOUT}")
         connection.execute("COMMIT")
 
     def __enter__(self) -> Store:
@@ -175,6 +175,23 @@ class Store:
             controller, coefficients = tuple(json.loads(controller)), tuple(json.loads(coefficients))
             run = Run(bool(success), generation, distance, controller, coefficients, evaluations)
             yield number, run, seconds
+
+
+def _switch_to_wal(connection: sqlite3.Connection) -> None:
+    """Set the journal mode, which the file then keeps. SQLite does not wait for other processes here, so this does."""
+    deadline = time.monotonic() + _PATIENCE
+    while True:
+        try:
+            connection.execute("PRAGMA journal_mode = WAL")
+            return
+        except sqlite3.OperationalError as error:
+            if "locked" not in str(error) or time.monotonic() > deadline:
+                raise
+            time.sleep(0.01)
+
+
+def _has_tables(connection: sqlite3.Connection) -> bool:
+    return connection.execute("SELECT count(*) FROM sqlite_master").fetchone() != (0,)
 
 
 def _provenance() -> dict[str, str | None]:

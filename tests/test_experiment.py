@@ -147,6 +147,16 @@ def test_killed_and_asked_for_again(tmp_path, sent):
     pd.testing.assert_frame_equal(resumed.drop(columns="seconds"), results(experiment))
 
 
+def test_processes_that_run_the_same_into_one_new_store(tmp_path):
+    store = tmp_path / "s.sqlite"
+    experiment = Experiment("safe", "maze2", runs=40, seed=5, parameters=Parameters(generations=60))
+    processes = [subprocess.Popen([sys.executable, "-c", SCRIPT, store]) for _ in range(3)]
+    assert [process.wait(timeout=120) for process in processes] == [0, 0, 0]
+    executor = InThisThread()
+    pd.testing.assert_frame_equal(results(experiment, store, executor), results(experiment))
+    assert executor.submitted == 0
+
+
 def stored(path, experiment):
     with Store(path) as store:
         number = store.experiment(experiment.content, experiment.digest, "safe", "maze2")
