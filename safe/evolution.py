@@ -24,7 +24,7 @@ Both call `advance`, and give the same run, bit for bit.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import NamedTuple
 
 import numpy as np
@@ -44,7 +44,7 @@ Seed = int | Sequence[int] | np.random.SeedSequence
 
 @dataclass(frozen=True)
 class Run:
-    """What came of one run.
+    """What came of a run.
 
     `controller` and `coefficients` belong to the best solution: the first with the smallest distance.
     In a successful run that is the successful one.
@@ -58,11 +58,10 @@ class Run:
     evaluations: int  # solutions evaluated
 
 
-@dataclass(frozen=True)
-class Generation:
-    """One generation, evaluated, before the next is bred from it. All arrays are copies."""
+@dataclass(frozen=True, eq=False)
+class Generation(Run):
+    """A run up to one generation, and that generation, evaluated, before the next is bred. All arrays are copies."""
 
-    number: int  # counted from 0
     genomes: np.ndarray  # float, (population, 16): p_1..p_16 of each solution
     endpoints: np.ndarray  # int, (population, 2): row and column
     distances: np.ndarray  # int, (population,): end point to goal, taxicab, in cells
@@ -73,7 +72,11 @@ class Generation:
     winners: np.ndarray | None  # int, (population,): which objective function gave a solution its fitness
     archive: tuple[np.ndarray, np.ndarray]  # points (n, 2) and scores (n,), the oldest first
     objective_archive: tuple[np.ndarray, np.ndarray]  # points (n, components) and scores (n,)
-    best: Run  # of the run so far
+
+    @property
+    def run(self) -> Run:
+        """The run so far, without the generation."""
+        return Run(*(getattr(self, field.name) for field in fields(Run)))
 
 
 def evolve(maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters: Parameters = Parameters()) -> Run:
@@ -114,7 +117,7 @@ def generations(
     Examples
     --------
     >>> for generation in generations("maze1", "novelty", seed=1, parameters=Parameters(generations=3)):
-    ...     print(generation.number, len(generation.archive[0]))
+    ...     print(generation.generation, len(generation.archive[0]))
     0 200
     1 400
     2 600
@@ -254,7 +257,7 @@ def _step_by_step(state: State, settings: Settings, rng: np.random.Generator) ->
     while more:
         more = advance(state, settings, rng)
         yield Generation(
-            number=int(state.number[0]),
+            **vars(_run(state, settings)),
             genomes=state.genomes.copy(),
             endpoints=state.endpoints.copy(),
             distances=state.distances.copy(),
@@ -265,7 +268,6 @@ def _step_by_step(state: State, settings: Settings, rng: np.random.Generator) ->
             winners=state.winners.copy() if judged else None,
             archive=archived(state.archive),
             objective_archive=archived(state.objective_archive),
-            best=_run(state, settings),
         )
 
 

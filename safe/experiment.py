@@ -15,6 +15,7 @@ import sys
 import time
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
+from functools import cached_property
 
 import numpy as np
 import pandas as pd
@@ -85,7 +86,7 @@ class Experiment:
             "parameters": {name: v for name, v in asdict(self.parameters).items() if v != paper[name]},
         }
 
-    @property
+    @cached_property
     def digest(self) -> str:
         """SHA-256 of the content, in hexadecimal."""
         return hashlib.sha256(json.dumps(self.content, sort_keys=True).encode()).hexdigest()
@@ -199,8 +200,10 @@ def _compute(
             future.cancel()
         kept = len(results.finished(number).intersection(range(experiment.runs)))
         error.add_note(
-            f"{kept} of {experiment.runs} runs are kept in {results.name}; "
+            f"{kept} of {experiment.runs} runs are kept in {results.path}; "
             "the same experiment asked for again computes the rest"
+            if results.path is not None
+            else f"{kept} of {experiment.runs} runs were finished; without a store they are not kept"
         )
         raise
     finally:

@@ -73,7 +73,7 @@ class Store:
     """
 
     def __init__(self, path: str | os.PathLike | None) -> None:
-        self.name = "memory" if path is None else str(path)
+        self.path = path
         self._connection = None
         try:
             self._connection = self._open(path)
@@ -83,7 +83,7 @@ class Store:
                 self._connection.close()
             raise ValueError(
                 "store must be the path of a results store, or of a file to make; "
-                f"was {checks.shown(self.name)} ({error})"
+                f"was {checks.shown(str(path))} ({error})"
             ) from None
 
     @staticmethod

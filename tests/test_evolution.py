@@ -39,7 +39,7 @@ def test_a_run_is_that_of_the_oracle_generation_by_generation(maze, name, seed):
         assert got.endpoints.tolist() == [list(end) for end in ends]
         assert got.fitness.tolist() == fitness
         assert got.objectives.tolist() == [list(map(float, objective)) for objective in objectives]
-        assert (got.best.distance, got.best.controller, got.best.coefficients) == (
+        assert (got.distance, got.controller, got.coefficients) == (
             best[0],
             tuple(best[1]),
             tuple(map(float, best[2])),
@@ -52,7 +52,7 @@ def test_stepped_and_driven_give_the_same_run(algorithm, maze):
     for seed in range(3):
         parameters = Parameters(generations=40)
         *_, last = generations(maze, algorithm, seed, parameters)
-        assert last.best == evolve(maze, algorithm, seed, parameters)
+        assert last.run == evolve(maze, algorithm, seed, parameters)
 
 
 @pytest.mark.parametrize("algorithm", safe.ALGORITHMS)
@@ -95,7 +95,7 @@ def test_novelty_is_not_computed_where_it_cannot_matter_and_nothing_changes():
     assert without.novelty is None
     assert len(without.archive[0]) == 0
     assert weighed.novelty.max() > 0
-    assert without.best.controller == weighed.best.controller
+    assert without.controller == weighed.controller
 
 
 def test_what_a_generation_tells():
@@ -103,7 +103,7 @@ def test_what_a_generation_tells():
     before = None
     for generation in generations(maze, "safe", 3, Parameters(generations=8)):
         n, m = 200, 200
-        assert generation.number == (0 if before is None else before.number + 1)
+        assert generation.generation == (0 if before is None else before.generation + 1)
         assert generation.genomes.shape == (n, 16)
         assert (generation.endpoints == safe.endpoints(maze, generation.genomes)).all()
         assert (generation.distances == maze.distance(generation.endpoints)).all()
@@ -114,12 +114,12 @@ def test_what_a_generation_tells():
         np.testing.assert_allclose(scores.max(axis=1), generation.fitness, rtol=1e-12)
         assert generation.objectives.shape == (m, 2)
         assert generation.objective_fitness.shape == (m,)
-        assert len(generation.archive[0]) == len(generation.archive[1]) == min(1000, n * (generation.number + 1))
-        assert generation.best.evaluations == n * (generation.number + 1)
+        assert len(generation.archive[0]) == len(generation.archive[1]) == min(1000, n * (generation.generation + 1))
+        assert generation.evaluations == n * (generation.generation + 1)
         if before is not None:  # the elite is handed on
             elite = before.genomes[np.argsort(-before.fitness, kind="stable")[:2]]
             assert (generation.genomes[:2] == elite).all()
-            assert generation.best.distance <= before.best.distance
+            assert generation.distance <= before.distance
         before = generation
 
 
@@ -145,16 +145,16 @@ def test_random_search_goes_on_after_a_success():
 def test_a_run_stops_with_the_generation_that_succeeds():
     maze = safe.load_maze("maze1")
     runs = [list(generations(maze, "novelty", seed, Parameters(generations=200))) for seed in range(4)]
-    succeeded = [run for run in runs if run[-1].best.success]
+    succeeded = [run for run in runs if run[-1].success]
     assert succeeded
     for run in runs:
         assert [generation.distances.min() <= 2 for generation in run[:-1]] == [False] * (len(run) - 1)
         last = run[-1]
-        assert last.best.success == (last.distances.min() <= 2)
-        assert last.best.success or last.number == 199
+        assert last.success == (last.distances.min() <= 2)
+        assert last.success or last.generation == 199
     last = succeeded[0][-1]
-    assert last.best.controller == tuple(last.genomes[last.distances.argmin()])
-    assert (safe.path(maze, last.best.controller)[-1] == last.endpoints[last.distances.argmin()]).all()
+    assert last.controller == tuple(last.genomes[last.distances.argmin()])
+    assert (safe.path(maze, last.controller)[-1] == last.endpoints[last.distances.argmin()]).all()
 
 
 def test_at_the_goal_the_component_is_two():

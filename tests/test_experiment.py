@@ -98,6 +98,9 @@ def test_interrupted_and_asked_for_again(tmp_path, uninterrupted, error):
     assert caught.value.__notes__ == [
         f"5 of 12 runs are kept in {store}; the same experiment asked for again computes the rest"
     ]
+    with pytest.raises(error) as caught:
+        results(EXPERIMENT, None, InThisThread(stop_before=5, error=error))
+    assert caught.value.__notes__ == ["5 of 12 runs were finished; without a store they are not kept"]
     rest = InThisThread()
     pd.testing.assert_frame_equal(results(EXPERIMENT, store, rest), uninterrupted)
     assert rest.submitted == 7
@@ -181,9 +184,9 @@ def test_what_an_experiment_is():
 
 
 def test_rules_that_have_changed_make_another_experiment(monkeypatch):
-    before = EXPERIMENT.digest
+    before = replace(EXPERIMENT).digest
     monkeypatch.setattr(module, "RULES", module.RULES + 1)
-    assert EXPERIMENT.digest != before
+    assert replace(EXPERIMENT).digest != before
 
 
 def test_the_digest_that_random_streams_are_spawned_from():
