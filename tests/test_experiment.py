@@ -122,7 +122,8 @@ def test_a_failing_run_is_told_and_the_others_are_kept(tmp_path, monkeypatch, un
 
 
 SCRIPT = """
-import sys, safe
+import signal, sys, safe
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a process in the background may have been told to ignore it
 safe.run(safe.Experiment("safe", "maze2", runs=40, seed=5, parameters=safe.Parameters(generations=60)), sys.argv[1])
 """
 
