@@ -26,7 +26,7 @@ def execute(notebook: Path, parameters: dict[str, object]) -> None:
     own = {name: value for name, value in parameters.items() if name in declared}
     departures = {name: value for name, value in own.items() if repr(value) != declared[name]["default"]}
     EXECUTED.mkdir(exist_ok=True)
-    unfinished = EXECUTED / f".{notebook.name}"
+    unfinished = unfinished_copy(notebook)
     watched = sys.stderr.isatty()
     os.environ["TQDM_DISABLE"] = "" if watched else "1"  # the kernel inherits it: bars are for people
     papermill.execute_notebook(
@@ -45,6 +45,11 @@ def execute(notebook: Path, parameters: dict[str, object]) -> None:
     executed.metadata[STAMP] = stamp(notebook, own)
     nbformat.write(executed, unfinished)
     unfinished.replace(EXECUTED / notebook.name)
+
+
+def unfinished_copy(notebook: Path) -> Path:
+    """Where a notebook is executed before its copy takes its place."""
+    return EXECUTED / f".{notebook.name}"
 
 
 def is_progress_bar(output: nbformat.NotebookNode) -> bool:
@@ -77,7 +82,10 @@ def main() -> None:
             continue
         print(f"{label}: executing", flush=True)
         started = time.perf_counter()
-        execute(notebook, parameters)
+        try:
+            execute(notebook, parameters)
+        except papermill.PapermillExecutionError as error:
+            sys.exit(f"{label}: {error.ename}: {error.evalue} (the whole of it is in {unfinished_copy(notebook)})")
         print(f"{label}: {time.perf_counter() - started:.1f} s", flush=True)
 
 

@@ -52,6 +52,12 @@ class Experiment:
     ------
     ValueError
         Where a name is unknown or a number is out of range.
+
+    Examples
+    --------
+    >>> experiment = Experiment("safe", "maze1", seed=3)
+    >>> experiment.runs, experiment.maze.goal, experiment.algorithm.rating
+    (500, (41, 15), 'genotypic novelty')
     """
 
     algorithm: Algorithm | str

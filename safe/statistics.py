@@ -10,9 +10,9 @@ import pandas as pd
 from scipy import stats
 
 from safe import checks
-from safe.algorithms import ALGORITHMS, Parameters
-from safe.experiment import Experiment
-from safe.maze import load_maze, maze_names
+from safe.algorithms import ALGORITHMS, COEFFICIENTS, COMPONENTS, Parameters
+from safe.experiment import WEIGHT_COLUMNS, Experiment
+from safe.maze import SENSORS, load_maze, maze_names
 
 CONFIDENCE = 0.95
 
@@ -81,44 +81,74 @@ def success_table(results: Mapping[Experiment, pd.DataFrame]) -> pd.DataFrame:
     return pd.DataFrame.from_dict(rows, orient="index").rename_axis(["maze", "algorithm"])
 
 
-def _published_for(experiment: Experiment, quantity: str) -> pd.Series:
-    """Mean, sd and n of a quantity in the paper; not a number where the paper has no such experiment or quantity.
-
-    What an experiment is called does not make it the paper's: its maze, algorithm and parameters do.
-    """
-    maze, algorithm = experiment.maze, experiment.algorithm
-    is_the_papers = (
-        maze.name in maze_names()
-        and maze == load_maze(maze.name)
-        and algorithm == ALGORITHMS.get(algorithm.name)
-        and experiment.parameters == Parameters()
-    )
-    paper = published()
-    found = paper[(paper.maze == maze.name) & (paper["item"] == algorithm.name) & (paper.quantity == quantity)]
-    if not is_the_papers or found.empty:
-        return pd.Series({"mean": np.nan, "sd": np.nan, "n": np.nan})
-    return found[["mean", "sd", "n"]].iloc[0]
-
-
 def readable_success_table(table: pd.DataFrame) -> pd.DataFrame:
     """A table of `success_table` to read: intervals as counts out of the runs, a dash for what is not there."""
-
-    def show(template: str, *values: float) -> str:
-        return "–" if np.isnan(values).any() else template.format(*values)
-
     rows = {}
     for index, row in table.iterrows():
         rate = row.paper_successes / row.paper_runs
         rows[index] = {
             "successes": f"{row.successes:.0f} of {row.runs:.0f}",
             "95 % interval": f"{row.low * row.runs:.0f} to {row.high * row.runs:.0f}",
-            "in the paper": show("{:.0f} of {:.0f}", row.paper_successes, row.paper_runs),
+            "in the paper": _show("{:.0f} of {:.0f}", row.paper_successes, row.paper_runs),
             "paper within": "–" if np.isnan(rate) else "yes" if row.low <= rate <= row.high else "no",
-            "p": show("{:.2f}", row.p_value),
-            "generations to success, mean (sd)": show("{:.0f} ({:.0f})", row["mean"], row.sd),
-            "mean (sd) in the paper": show("{:.0f} ({:.0f})", row.paper_mean, row.paper_sd),
+            "p": _show("{:.2f}", row.p_value),
+            "generations to success, mean (sd)": _show("{:.0f} ({:.0f})", row["mean"], row.sd),
+            "mean (sd) in the paper": _show("{:.0f} ({:.0f})", row.paper_mean, row.paper_sd),
         }
     return pd.DataFrame.from_dict(rows, orient="index").rename_axis(table.index.names)
+
+
+def evolved_table(results: Mapping[Experiment, pd.DataFrame]) -> pd.DataFrame:
+    """What successful runs of SAFE evolved, beside the paper's: coefficients and parameters of the controllers.
+
+    Parameters
+    ----------
+    results : mapping of Experiment to DataFrame
+        The runs of each experiment, as `safe.run` gives them.
+
+    Returns
+    -------
+    pandas.DataFrame, one row for each maze and item: a, b, p1..p16
+        mean, sd (ddof = 0) and n, the successful runs; paper_mean, paper_sd and paper_n; difference, of the means;
+        allowed, the most that the difference is in 95 of 100 pairs of samples of these sizes from one population.
+        Not a number where there is none; nothing can be said of what is allowed from a single run.
+    """
+    rows = {}
+    for experiment, runs in results.items():
+        successful = runs[runs.success]
+        for item in (*COEFFICIENTS, *WEIGHT_COLUMNS):
+            sample = successful[item]
+            paper = _published_for(experiment, "coefficient" if item in COEFFICIENTS else "weight", item)
+            mean, sd, n = sample.mean(), sample.std(ddof=0), len(sample)
+            error = np.sqrt(sd**2 / n + paper["sd"] ** 2 / paper["n"]) if n > 1 else np.nan
+            rows[experiment.maze.name, item] = {
+                "mean": mean,
+                "sd": sd,
+                "n": n,
+                "paper_mean": paper["mean"],
+                "paper_sd": paper["sd"],
+                "paper_n": paper["n"],
+                "difference": mean - paper["mean"],
+                "allowed": stats.norm.ppf((1 + CONFIDENCE) / 2) * error,
+            }
+    return pd.DataFrame.from_dict(rows, orient="index").rename_axis(["maze", "item"])
+
+
+def readable_evolved_table(table: pd.DataFrame) -> pd.DataFrame:
+    """A table of `evolved_table` to read: the mazes side by side, a dash for what is not there."""
+    columns = {}
+    for maze, rows in table.groupby(level="maze", sort=False):
+        by_item = rows.droplevel("maze")
+        columns |= {
+            (maze, "mean (sd)"): [_show("{:.2f} ({:.2f})", *v) for v in by_item[["mean", "sd"]].to_numpy()],
+            (maze, "paper"): [_show("{:.2f} ({:.2f})", *v) for v in by_item[["paper_mean", "paper_sd"]].to_numpy()],
+            (maze, "difference"): [
+                _show("{:+.2f} (±{:.2f})", *v) for v in by_item[["difference", "allowed"]].to_numpy()
+            ],
+        }
+    weighed = [*COMPONENTS, *(f"{sensor} in {total}" for total in "hv" for sensor in SENSORS)]
+    index = pd.MultiIndex.from_arrays([table.index.unique("item"), weighed], names=["", "weighs"])
+    return pd.DataFrame(columns, index=index)
 
 
 def first_solutions(results: pd.DataFrame, n: int) -> pd.DataFrame:
@@ -132,3 +162,28 @@ def first_solutions(results: pd.DataFrame, n: int) -> pd.DataFrame:
     n = checks.integer("n", n, 1)
     miss = results.distance.where(~results.success, 0)
     return results.assign(miss=miss).sort_values(["miss", "run"]).drop(columns="miss").head(n)
+
+
+def _show(template: str, *values: float) -> str:
+    return "–" if np.isnan(values).any() else template.format(*values)
+
+
+def _published_for(experiment: Experiment, quantity: str, item: str | None = None) -> pd.Series:
+    """Mean, sd and n of a quantity in the paper; not a number where the paper has no such experiment or quantity.
+
+    The item is the algorithm where none is named. What an experiment is called does not make it the paper's: its maze,
+    algorithm and parameters do.
+    """
+    maze, algorithm = experiment.maze, experiment.algorithm
+    is_the_papers = (
+        maze.name in maze_names()
+        and maze == load_maze(maze.name)
+        and algorithm == ALGORITHMS.get(algorithm.name)
+        and experiment.parameters == Parameters()
+    )
+    paper = published()
+    is_item = (paper["item"] == (item or algorithm.name)) & paper.quantity.str.startswith(quantity)
+    found = paper[(paper.maze == maze.name) & is_item]
+    if not is_the_papers or found.empty:
+        return pd.Series({"mean": np.nan, "sd": np.nan, "n": np.nan})
+    return found[["mean", "sd", "n"]].iloc[0]

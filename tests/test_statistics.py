@@ -4,6 +4,7 @@ import pytest
 
 import safe
 from safe import statistics
+from safe.experiment import WEIGHT_COLUMNS as WEIGHTS
 
 
 def runs(successes, n, generations=(), **columns):
@@ -86,6 +87,43 @@ def test_whether_the_paper_lies_within():
         results = {experiment(maze, "safe"): runs(count, 500) for maze, count in counts.items()}
         words = statistics.readable_success_table(statistics.success_table(results))
         assert set(words["paper within"]) == {expected}
+
+
+def test_what_was_evolved_beside_the_papers():
+    evolved = {"a": [0.8, 0.6, 0.0], "b": [1.0, 1.0, 0.0]} | {f"p{i}": [i / 100, i / 50, 9.0] for i in range(1, 17)}
+    mine = safe.Maze.from_drawing("S.G", name="my maze")
+    table = statistics.evolved_table(
+        {experiment("maze2", "safe"): runs(2, 3, **evolved), experiment(mine, "safe"): runs(2, 3, **evolved)}
+    )
+    a = table.loc["maze2", "a"]
+    assert (a["mean"], a.sd, a.n) == pytest.approx((0.7, 0.1, 2))
+    assert (a.paper_mean, a.paper_sd, a.paper_n) == (0.83, 0.18, 17)
+    assert a.difference == pytest.approx(-0.13)
+    assert a.allowed == pytest.approx(1.95996 * np.sqrt(0.1**2 / 2 + 0.18**2 / 17), rel=1e-5)
+    p12 = table.loc["maze2", "p12"]
+    assert (p12["mean"], p12.paper_mean, p12.paper_sd) == pytest.approx((0.18, 0.54, 0.29))
+    assert table.loc["my maze", ["paper_mean", "difference", "allowed"]].isna().all(axis=None)
+
+    words = statistics.readable_evolved_table(table)
+    assert len(words) == 18
+    assert words.index[0] == ("a", "1 / distance")
+    assert words.index[13] == ("p12", "goal_left in v")
+    assert words["maze2"].iloc[0].tolist() == ["0.70 (0.10)", "0.83 (0.18)", "-0.13 (±0.16)"]
+    assert words["my maze"].iloc[0].tolist() == ["0.70 (0.10)", "–", "–"]
+
+
+def test_the_papers_weights_are_named_as_ours():
+    paper = statistics.published()
+    named = dict(zip(paper["item"], paper.quantity, strict=True))
+    table = statistics.evolved_table({experiment("maze1", "safe"): runs(1, 1, a=1, b=1, **dict.fromkeys(WEIGHTS, 0))})
+    for item, weighs in statistics.readable_evolved_table(table).index[2:]:
+        assert named[item] == f"weight of {weighs}"
+
+
+def test_nothing_evolved():
+    table = statistics.evolved_table({experiment("maze1", "safe"): runs(0, 2, a=1, b=1, **dict.fromkeys(WEIGHTS, 0))})
+    words = statistics.readable_evolved_table(table)
+    assert words["maze1"].iloc[0].tolist() == ["–", "0.85 (0.16)", "–"]
 
 
 def test_first_solutions_are_successes_in_order_and_then_the_nearest():
