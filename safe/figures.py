@@ -17,6 +17,8 @@ from safe.maze import Maze
 STYLE = Path(__file__).with_name("figures.mplstyle")
 WALL, START, GOAL, PATH = "#404040", "#009E73", "#D55E00", "#0072B2"
 
+_DIRECTIONS = {"right": (0, 1), "left": (0, -1), "down": (1, 0), "up": (-1, 0)}  # rows down, columns right
+
 
 def use_style() -> None:
     """Make every figure look like those of the book; in a notebook as SVG for pages and PDF for print."""
@@ -93,6 +95,43 @@ def plot_paths(rows: Sequence[Sequence[tuple[Maze, np.ndarray | None, str]]]) ->
     handles, labels = grid[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
     return figure, grid
+
+
+def plot_sensors(maze: Maze, cell: tuple[int, int], margin: int = 4) -> tuple[Figure, Axes]:
+    """What a robot in an open cell (row, column) senses: arrows to the first walls, and to the side of the goal.
+
+    The part of the maze that the arrows reach is shown, and `margin` cells around. Returns the figure and its axes.
+    """
+    readings = maze.readings(cell)
+    row, column = cell
+    figure, axes = plt.subplots(figsize=(7, 5))
+    draw_maze(axes, maze)
+    axes.plot(column, row, "D", markersize=11, color=PATH, markeredgecolor="white", zorder=5, linestyle="none")
+    reach = [(row, column)]
+    for direction, (down, right) in _DIRECTIONS.items():
+        cells = readings[f"dist_{direction}"]
+        end = row + down * cells, column + right * cells
+        reach.append(end)
+        axes.annotate("", end[::-1], (column, row), arrowprops={"arrowstyle": "-|>", "color": PATH, "lw": 1.8})
+        text = f"dist_{direction} = {cells:.0f}"
+        if readings[f"goal_{direction}"]:
+            text += f"\ngoal_{direction} = {readings[f'goal_{direction}']:.0f}"
+        axes.text(
+            (column + end[1]) / 2,
+            (row + end[0]) / 2,
+            text,
+            color=GOAL if readings[f"goal_{direction}"] else PATH,
+            ha="center",
+            va="center",
+            fontsize="small",
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5},
+            zorder=6,
+        )
+    rows, columns = np.array(reach).T
+    axes.set_xlim(columns.min() - margin, columns.max() + margin)
+    axes.set_ylim(rows.max() + margin, rows.min() - margin)
+    axes.set_title(f"{maze.name}, the robot in row {row}, column {column}")
+    return figure, axes
 
 
 def plot_success(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:

@@ -160,6 +160,21 @@ class Maze:
         """What the compiled functions need of this maze."""
         return MazeArrays(self.walls, self.sensors, self.start, self.goal)
 
+    def readings(self, cell: tuple[int, int]) -> dict[str, float]:
+        """What a robot in an open cell (row, column) senses, by the name of the sensor, in the order of SENSORS.
+
+        Raises
+        ------
+        ValueError
+            Where the cell is outside or wall.
+
+        Examples
+        --------
+        >>> Maze.from_drawing("S..#\\n...G").readings((0, 1))["dist_right"]
+        2.0
+        """
+        return dict(zip(SENSORS, self.sensors[_open_cell("cell", cell, self.walls)].tolist(), strict=True))
+
     def distance(self, points: np.ndarray) -> np.ndarray:
         """Taxicab distance, in cells, from points of shape (..., 2), row and column, to the goal."""
         return np.abs(np.asarray(points) - np.array(self.goal)).sum(axis=-1)

@@ -47,6 +47,12 @@ def test_one_drawing_for_each_maze_and_path():
     assert grid[0, 2].get_title() == "small"
 
 
+def test_sensors_are_shown_with_their_readings():
+    _, axes = figures.plot_sensors(MAZE, (2, 1))
+    texts = {text.get_text() for text in axes.texts}
+    assert {"dist_right = 2\ngoal_right = 4", "dist_left = 1", "dist_down = 0", "dist_up = 1\ngoal_up = 3"} <= texts
+
+
 def test_rates_of_success_with_the_papers():
     table = statistics.success_table(
         {safe.Experiment("safe", "maze1"): runs(3, 4), safe.Experiment("random", "maze1"): runs(0, 4)}

@@ -95,11 +95,17 @@ SIX_BY_SEVEN = """
 def test_sensors_by_hand(drawing, cell, expected):
     maze = Maze.from_drawing(drawing)
     height, width = maze.shape
-    readings = dict(zip(SENSORS, maze.sensors[cell].tolist(), strict=True))
+    readings = maze.readings(cell)
     for direction in ("right", "left", "up", "down"):
         assert readings[f"dist_{direction}"] == expected[direction], direction
         side = height if direction in ("up", "down") else width
         assert readings[f"goal_{direction}"] == (side if direction in expected["goal"] else 0), direction
+
+
+@pytest.mark.parametrize("cell", [(0, 0), (6, 0), (-1, 2), (2, 2, 2), None, "11"])
+def test_nothing_is_sensed_in_a_wall_or_outside(cell):
+    with pytest.raises(ValueError, match="cell must be"):
+        Maze.from_drawing(SIX_BY_SEVEN).readings(cell)
 
 
 @given(mazes())

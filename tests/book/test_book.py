@@ -72,7 +72,7 @@ def test_the_pages_show_what_was_computed(checkout, pages):
     table = pages["notebooks/table2-success.html"]
     assert f"of {RUNS}</td>" in table
     assert "322 of 500</td>" in table
-    for notebook in ("figure1-mazes", "figure2-deception", "table2-success", "figure5-solutions"):
+    for notebook in ("figure1-mazes", "figure2-deception", "figure3-sensors", "table2-success", "figure5-solutions"):
         assert re.search(r'<img [^>]*src="\.\./_images/[0-9a-f]+\.svg"', pages[f"notebooks/{notebook}.html"]), notebook
 
 
