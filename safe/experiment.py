@@ -13,6 +13,7 @@ import json
 import os
 import sys
 import time
+from collections.abc import Iterator
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
 from functools import cached_property
@@ -23,7 +24,7 @@ from tqdm import tqdm
 
 from safe import checks
 from safe.algorithms import COEFFICIENTS, Algorithm, Parameters, get_algorithm
-from safe.evolution import RULES, Run, evolve
+from safe.evolution import RULES, Generation, Run, evolve, generations
 from safe.maze import Maze, load_maze
 from safe.robot import WEIGHTS
 from safe.store import Store
@@ -98,7 +99,7 @@ class Experiment:
         return hashlib.sha256(json.dumps(self.content, sort_keys=True).encode()).hexdigest()
 
     def seed_sequence(self, run: int) -> np.random.SeedSequence:
-        """Where the randomness of one run starts from: with it, `safe.evolve` and `safe.generations` replay that run.
+        """Where the randomness of one run starts from; `safe.evolve` makes that run of it (see also `replay`).
 
         Examples
         --------
@@ -109,6 +110,17 @@ class Experiment:
         """
         run = checks.integer("run", run, 0)
         return np.random.SeedSequence(int(self.digest, 16), spawn_key=(run,))
+
+    def replay(self, run: int) -> Iterator[Generation]:
+        """One run again, generation by generation, whether it is in a store or not.
+
+        Examples
+        --------
+        >>> experiment = Experiment("standard", "maze1", parameters=Parameters(generations=3))
+        >>> [generation.generation for generation in experiment.replay(7)]
+        [0, 1, 2]
+        """
+        return generations(self.maze, self.algorithm, self.seed_sequence(run), self.parameters)
 
 
 def run(

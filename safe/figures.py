@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
+import base64
+import hashlib
+import html
+import io
+import json
 from collections.abc import Sequence
 from pathlib import Path
+from string import Template
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -12,6 +18,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
+from safe.evolution import Generation
 from safe.maze import Maze
 
 STYLE = Path(__file__).with_name("figures.mplstyle")
@@ -155,3 +162,77 @@ def plot_success(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
     handles, labels = grid[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
     return figure, grid[0]
+
+
+def plot_progress(story: Sequence[Generation]) -> tuple[Figure, np.ndarray]:
+    """How a run went: distances to the goal and, where it counts, novelty, by generation.
+
+    Returns the figure and its axes, an array of one or two.
+    """
+    numbers = [generation.generation for generation in story]
+    has_novelty = story[0].novelty is not None
+    figure, grid = plt.subplots(1 + has_novelty, 1, figsize=(7, 2.6 * (1 + has_novelty)), sharex=True, squeeze=False)
+    distance = grid[0, 0]
+    distance.plot(
+        numbers, [generation.distances.min() for generation in story], alpha=0.5, label="nearest in generation"
+    )
+    distance.plot(numbers, [generation.distance for generation in story], label="nearest so far")
+    distance.set(ylabel="distance to the goal, cells", ylim=(0, None))
+    distance.legend()
+    if has_novelty:
+        novelty = grid[1, 0]
+        novelty.plot(numbers, [generation.novelty.max() for generation in story], alpha=0.5, label="highest")
+        novelty.plot(numbers, [generation.novelty.mean() for generation in story], label="mean")
+        novelty.set(ylabel="novelty, cells", ylim=(0, None))
+        novelty.legend()
+    grid[-1, 0].set_xlabel("generation")
+    return figure, grid[:, 0]
+
+
+def plot_generation(maze: Maze, generation: Generation) -> tuple[Figure, np.ndarray]:
+    """End points and archive over the maze and, where there are several, the objective functions.
+
+    Returns the figure and its axes, an array of one or two.
+    """
+    several = len(generation.objectives) > 1
+    figure, grid = plt.subplots(1, 1 + several, figsize=(4.6 * (1 + several), 5), squeeze=False)
+    draw_maze(grid[0, 0], maze)
+    archived, _ = generation.archive
+    grid[0, 0].plot(archived[:, 1], archived[:, 0], ".", color="#999999", markersize=3, label="archive")
+    ends = generation.endpoints
+    grid[0, 0].plot(ends[:, 1], ends[:, 0], ".", color=PATH, markersize=6, label="end points")
+    grid[0, 0].set_title(f"generation {generation.generation}: nearest so far {generation.distance} cells")
+    grid[0, 0].legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncols=4, fontsize="small", columnspacing=1)
+    if several:
+        won = np.bincount(generation.winners, minlength=len(generation.objectives)) > 0
+        for chosen, colour, label in ((~won, "#999999", "won nowhere"), (won, GOAL, "gave some solution its fitness")):
+            a, b = generation.objectives[chosen].T
+            grid[0, 1].plot(a, b, ".", color=colour, markersize=7, label=label)
+        grid[0, 1].set(title="objective functions", xlabel="a (closeness)", ylabel="b (novelty)", aspect="equal")
+        grid[0, 1].set(xlim=(-0.02, 1.02), ylim=(-0.02, 1.02))
+        grid[0, 1].legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, fontsize="small")
+    return figure, grid[0]
+
+
+def animate(maze: Maze, story: Sequence[Generation], frames: int = 30) -> str:
+    """A run as HTML: frames of `plot_generation`, evenly spread, with a button to play and a slider.
+
+    It needs nothing from elsewhere, and no kernel.
+    """
+    chosen = np.unique(np.linspace(0, len(story) - 1, frames).round().astype(int))
+    images = []
+    for index in chosen:
+        figure, _ = plot_generation(maze, story[index])
+        with io.BytesIO() as file:
+            figure.savefig(file, format="png", dpi=75, bbox_inches=figure.bbox_inches)  # all of one size
+            images.append(base64.b64encode(file.getvalue()).decode())
+        plt.close(figure)
+    last = story[-1]
+    text = f"End points over {maze.name}, from generation 0 to {last.generation}, {last.distance} cells from the goal."
+    return Template(Path(__file__).with_name("player.html").read_text(encoding="utf-8")).substitute(
+        id="player-" + hashlib.sha256("".join(images).encode()).hexdigest()[:12],
+        text=html.escape(text, quote=True),
+        last=len(images) - 1,
+        frames=json.dumps(images),
+        labels=json.dumps([story[index].generation for index in chosen]),
+    )

@@ -1,3 +1,7 @@
+import base64
+import json
+import re
+
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
@@ -51,6 +55,52 @@ def test_sensors_are_shown_with_their_readings():
     _, axes = figures.plot_sensors(MAZE, (2, 1))
     texts = {text.get_text() for text in axes.texts}
     assert {"dist_right = 2\ngoal_right = 4", "dist_left = 1", "dist_down = 0", "dist_up = 1\ngoal_up = 3"} <= texts
+
+
+def story(algorithm):
+    return list(safe.Experiment(algorithm, "maze2", parameters=safe.Parameters(generations=5)).replay(0))
+
+
+@pytest.mark.parametrize(("algorithm", "panels"), [("safe", 2), ("novelty", 2), ("standard", 1), ("random", 1)])
+def test_progress(algorithm, panels):
+    told = story(algorithm)
+    _, grid = figures.plot_progress(told)
+    assert len(grid) == panels
+    of_generation, so_far = (line.get_ydata() for line in grid[0].get_lines())
+    assert so_far.tolist() == np.minimum.accumulate(of_generation).tolist()
+    assert so_far[-1] == told[-1].distance
+
+
+@pytest.mark.parametrize(("algorithm", "panels"), [("safe", 2), ("novelty", 1), ("standard", 1), ("random", 1)])
+def test_a_generation_is_shown_with_its_objective_functions(algorithm, panels):
+    *_, last = story(algorithm)
+    _, grid = figures.plot_generation(safe.load_maze("maze2"), last)
+    assert len(grid) == panels
+    lines = {line.get_label(): line.get_xydata() for axes in grid for line in axes.get_lines()}
+    assert lines["end points"].tolist() == last.endpoints[:, ::-1].tolist()
+    assert len(lines["archive"]) == len(last.archive[0])
+    if panels == 2:
+        assert len(lines["won nowhere"]) + len(lines["gave some solution its fitness"]) == 200
+        assert {tuple(point) for point in lines["gave some solution its fitness"]} == {
+            tuple(last.objectives[winner]) for winner in last.winners
+        }
+
+
+def test_an_animation_needs_nothing_from_elsewhere():
+    maze = safe.Maze.from_drawing("S#\n.G", name='<b>"mine"')
+    told = list(
+        safe.generations(maze, "random", 0, safe.Parameters(population=4, objectives=4, generations=9, steps=1))
+    )
+    page = figures.animate(maze, told, frames=4)
+    assert "://" not in page
+    assert "<b>" not in page
+    frames = json.loads(re.search(r"const frames = (\[.*?\])", page).group(1))
+    assert json.loads(re.search(r"labels = (\[.*?\])", page).group(1)) == [0, 3, 5, 8]
+    sizes = {base64.b64decode(frame)[16:24] for frame in frames}  # width and height in the header of a PNG
+    assert len(frames) == 4
+    assert len(sizes) == 1
+    assert figures.animate(maze, told[:1]).count("iVBOR") == 1
+    assert plt.get_fignums() == []
 
 
 def test_rates_of_success_with_the_papers():
