@@ -19,7 +19,7 @@ execute: env ## execute the notebooks that are stale, with RUNS runs of each exp
 	$(BIN)/python book/execute.py
 
 book: execute ## everything from nothing: environment, every notebook, the book (RUNS=20 for a class)
-	$(BIN)/jupyter-book build . --toc book/_toc.yml --warningiserror --keep-going --nitpick
+	$(BIN)/jupyter-book build . --toc book/_toc.yml --quiet --warningiserror --keep-going --nitpick
 	@echo "The book: _build/html/index.html"
 
 test: .venv/installed-for-tests ## everything from nothing: environment, the tests

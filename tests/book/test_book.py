@@ -1,53 +1,12 @@
 """The whole pipeline, on a copy of the checkout: notebooks executed at a few runs, the book built from them."""
 
 import json
-import os
 import re
-import shutil
-import subprocess
-import sys
 from html.parser import HTMLParser
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
-RUNS = "4"
-PARTS = ["Makefile", "_config.yml", "book", "notebooks", "safe"]
-
-
-def call(folder, *command, runs=RUNS):
-    environment = {**os.environ, "RUNS": runs, "NO_COLOR": "1"}
-    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
-
-
-def execute(folder, *arguments, **options):
-    return call(folder, sys.executable, "book/execute.py", *arguments, **options)
-
-
-def build(folder, **options):
-    command = Path(sys.executable).with_name("jupyter-book")
-    return call(folder, command, "build", ".", "--toc", "book/_toc.yml", "-W", "--keep-going", "-n", **options)
-
-
-def output(process):
-    return process.stdout + process.stderr
-
-
-@pytest.fixture(scope="module")
-def checkout(tmp_path_factory):
-    """A checkout with all notebooks executed and the book built."""
-    folder = tmp_path_factory.mktemp("checkout")
-    for part in PARTS:
-        if (ROOT / part).is_dir():
-            shutil.copytree(ROOT / part, folder / part, ignore=shutil.ignore_patterns("__pycache__"))
-        else:
-            shutil.copy(ROOT / part, folder)
-    executed = execute(folder)
-    assert executed.returncode == 0, output(executed)
-    built = build(folder)
-    assert built.returncode == 0, output(built)
-    return folder
+from tests.book.conftest import RUNS, build, execute, output
 
 
 @pytest.fixture

@@ -1,0 +1,111 @@
+"""Every page as a browser shows it. Skipped where there is no Chromium."""
+
+import functools
+import http.server
+import re
+import shutil
+import threading
+from pathlib import Path
+from urllib.parse import unquote, urljoin, urlparse
+
+import pytest
+
+BROWSERS = (
+    "chromium",
+    "chromium-browser",
+    "google-chrome",
+    "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+)
+BROWSER = next((found for name in BROWSERS if (found := shutil.which(name))), None)
+DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 800}
+
+needs_browser = pytest.mark.skipif(BROWSER is None, reason="no Chromium found: install Debian's chromium, or Chrome")
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *arguments):
+        pass
+
+
+@pytest.fixture(scope="module")
+def site(checkout):
+    """The address of the built book, served on this machine."""
+    handler = functools.partial(Quiet, directory=checkout / "_build" / "html")
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        threading.Thread(target=server.serve_forever).start()
+        yield f"http://127.0.0.1:{server.server_port}/"
+        server.shutdown()
+
+
+@pytest.fixture(scope="module")
+def browser():
+    sync_api = pytest.importorskip("playwright.sync_api")
+    with sync_api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def names(checkout):
+    html = checkout / "_build" / "html"
+    return sorted(str(page.relative_to(html)) for page in html.rglob("*.html") if "_static" not in page.parts)
+
+
+@needs_browser
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("viewport", [DESKTOP, PHONE], ids=["desktop", "phone"])
+def test_every_page_without_an_error_a_request_elsewhere_or_a_scroll_bar(site, browser, names, viewport, scheme):
+    context = browser.new_context(viewport=viewport, color_scheme=scheme)
+    page = context.new_page()
+    complaints = []
+    page.on("console", lambda message: message.type == "error" and complaints.append(message.text))
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.on("request", lambda request: request.url.startswith((site, "data:")) or complaints.append(request.url))
+    page.on(
+        "response", lambda response: response.status < 400 or complaints.append(f"{response.status} {response.url}")
+    )
+    for name in names:
+        page.goto(urljoin(site, name), wait_until="networkidle")
+        assert complaints == [], name
+        wider = page.evaluate("document.documentElement.scrollWidth - window.innerWidth")
+        assert wider <= 0, f"{name} is {wider} pixels wider than the window"
+    context.close()
+
+
+@needs_browser
+def test_the_replay_plays(site, browser):
+    page = browser.new_page()
+    page.goto(urljoin(site, "notebooks/replay.html"))
+    player = page.locator(".player")
+    slider, button, image = player.get_by_role("slider"), player.get_by_role("button"), player.get_by_role("img")
+    first = image.get_attribute("src")
+    assert slider.input_value() == "0"
+    button.click()
+    page.wait_for_function("document.querySelector('.player input').value > 1")
+    assert button.get_attribute("aria-pressed") == "true"
+    button.click()
+    assert button.inner_text() == "Play"
+    stopped = slider.input_value()
+    assert image.get_attribute("src") != first
+    slider.focus()
+    page.keyboard.press("Home")
+    assert stopped != slider.input_value() == "0"
+    assert image.get_attribute("src") == first
+    page.close()
+
+
+def test_every_link_within_the_book_leads_somewhere(checkout, names):
+    html = checkout / "_build" / "html"
+    anchors = {name: set(re.findall(r'\bid="([^"]+)"', (html / name).read_text())) for name in names}
+    for name in names:
+        for link in re.findall(r'<a [^>]*href="([^"]+)"', (html / name).read_text()):
+            address = urlparse(link)
+            if address.scheme or link == "#":
+                continue
+            target = (
+                name if not address.path else str(Path(urljoin("/" + name, unquote(address.path))).relative_to("/"))
+            )
+            assert (html / target).exists(), f"{name}: {link}"
+            if address.fragment and target in anchors:
+                assert address.fragment in anchors[target], f"{name}: {link}"
