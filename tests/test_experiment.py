@@ -121,50 +121,55 @@ def test_a_failing_run_is_told_and_the_others_are_kept(tmp_path, monkeypatch, un
     pd.testing.assert_frame_equal(results(EXPERIMENT, store), uninterrupted)
 
 
+# long enough to be stopped in the middle, on a slow machine too
+LONG = Experiment("safe", "maze2", runs=80, seed=5, parameters=Parameters(generations=120))
 SCRIPT = """
 import signal, sys, safe
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a process in the background may have been told to ignore it
-safe.run(safe.Experiment("safe", "maze2", runs=40, seed=5, parameters=safe.Parameters(generations=60)), sys.argv[1])
+safe.run(safe.Experiment("safe", "maze2", runs=80, seed=5, parameters=safe.Parameters(generations=120)), sys.argv[1])
 """
 
 
+@pytest.fixture(scope="module")
+def long_uninterrupted():
+    return results(LONG)
+
+
+def stored(path):
+    """Number, run and seconds of what is kept of the long experiment."""
+    with Store(path) as store:
+        return list(store.runs(store.experiment(LONG.content, LONG.digest, "safe", "maze2"), below=LONG.runs))
+
+
 @pytest.mark.parametrize("sent", [signal.SIGKILL, signal.SIGINT])
-def test_killed_and_asked_for_again(tmp_path, sent):
+def test_killed_and_asked_for_again(tmp_path, sent, long_uninterrupted):
     """A real process, stopped in the middle: what was finished is in the table of the one that goes on."""
     store = tmp_path / "s.sqlite"
-    experiment = Experiment("safe", "maze2", runs=40, seed=5, parameters=Parameters(generations=60))
     process = subprocess.Popen([sys.executable, "-c", SCRIPT, store], stderr=subprocess.PIPE, text=True)
     kept = []
     while len(kept) < 4:
         assert process.poll() is None, process.stderr.read()
         time.sleep(0.02)
         if store.exists():
-            kept = stored(store, experiment)
+            kept = stored(store)
     process.send_signal(sent)
     _, complaint = process.communicate(timeout=30)
     assert process.returncode != 0
-    assert sent == signal.SIGKILL or "of 40 runs are kept" in complaint
-    kept = stored(store, experiment)
-    assert 4 <= len(kept) < 40
-    resumed = run(experiment, store, progress=False)
+    assert sent == signal.SIGKILL or "of 80 runs are kept" in complaint
+    kept = stored(store)
+    assert 4 <= len(kept) < 80
+    resumed = run(LONG, store, progress=False)
     assert resumed.seconds[[number for number, _, _ in kept]].tolist() == [seconds for _, _, seconds in kept]
-    pd.testing.assert_frame_equal(resumed.drop(columns="seconds"), results(experiment))
+    pd.testing.assert_frame_equal(resumed.drop(columns="seconds"), long_uninterrupted)
 
 
-def test_processes_that_run_the_same_into_one_new_store(tmp_path):
+def test_processes_that_run_the_same_into_one_new_store(tmp_path, long_uninterrupted):
     store = tmp_path / "s.sqlite"
-    experiment = Experiment("safe", "maze2", runs=40, seed=5, parameters=Parameters(generations=60))
     processes = [subprocess.Popen([sys.executable, "-c", SCRIPT, store]) for _ in range(3)]
     assert [process.wait(timeout=120) for process in processes] == [0, 0, 0]
     executor = InThisThread()
-    pd.testing.assert_frame_equal(results(experiment, store, executor), results(experiment))
+    pd.testing.assert_frame_equal(results(LONG, store, executor), long_uninterrupted)
     assert executor.submitted == 0
-
-
-def stored(path, experiment):
-    with Store(path) as store:
-        number = store.experiment(experiment.content, experiment.digest, "safe", "maze2")
-        return list(store.runs(number, below=experiment.runs))
 
 
 def test_what_an_experiment_is():
