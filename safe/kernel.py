@@ -14,7 +14,10 @@ def kernel(function: Callable) -> Callable:
     """Compile `function` with numba: no Python inside, GIL released, kept on disk, IEEE arithmetic.
 
     `fastmath` stays off: it lets a compiler reorder sums, and then a run would differ between machines.
+    With NUMBA_DISABLE_JIT=1 in the environment functions stay plain Python, for a debugger to step through.
     """
+    if numba.config.DISABLE_JIT:
+        return function
     compiled = numba.njit(nogil=True, cache=True)(function)
     _forget_stale_cache(compiled)
     return compiled

@@ -51,6 +51,24 @@ def test_a_kernel_uses_only_numpy_math_numbers_and_other_kernels(kernel):
         assert is_library or is_kernel(value) or isinstance(value, int | float), name
 
 
+def test_without_compiling_a_run_is_the_same():
+    code = (
+        "import safe; print(safe.evolve('maze1', 'safe', 2, "
+        "safe.Parameters(population=6, objectives=6, generations=4, archive=9, k=3)))"
+    )
+    outputs = [
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env={**os.environ, "NUMBA_DISABLE_JIT": disable},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for disable in ("0", "1")
+    ]
+    assert outputs[0] == outputs[1] != ""
+
+
 def test_an_edited_kernel_is_compiled_anew_in_every_file_that_calls_it(tmp_path):
     package = tmp_path / "tiny"
     package.mkdir()
