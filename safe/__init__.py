@@ -10,6 +10,7 @@ from safe.experiment import Experiment, run
 from safe.maze import Maze, load_maze
 from safe.novelty import NoveltyArchive
 from safe.robot import endpoints, path
+from safe.version import __version__
 
 __all__ = [
     "ALGORITHMS",
@@ -20,6 +21,7 @@ __all__ = [
     "NoveltyArchive",
     "Parameters",
     "Run",
+    "__version__",
     "endpoints",
     "evolve",
     "generations",
@@ -27,5 +29,3 @@ __all__ = [
     "path",
     "run",
 ]
-
-__version__ = "0.1.0"

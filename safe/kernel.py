@@ -27,7 +27,7 @@ def _forget_stale_cache(compiled: Callable) -> None:
     """Remove what is kept on disk of a kernel where any source of the package is newer.
 
     numba looks only at the file of the function itself, so without this an edit to robot.py would
-    leave evolution.py running the robot of before (https://github.com/numba/numba/issues/3772).
+    leave evolution.py running the robot of before (https://github.com/numba/numba/issues/1833).
     """
     newest_source = max(source.stat().st_mtime for source in _PACKAGE.glob("*.py"))
     name = f"{Path(compiled.py_func.__code__.co_filename).stem}.{compiled.py_func.__qualname__}-"

@@ -24,6 +24,7 @@ import numpy as np
 
 from safe import checks
 from safe.evolution import Run
+from safe.version import __version__
 
 _PATIENCE = 60  # seconds to wait for other processes that write
 _LAYOUT = 1  # of the tables below
@@ -195,8 +196,6 @@ def _has_tables(connection: sqlite3.Connection) -> bool:
 
 
 def _provenance() -> dict[str, str | None]:
-    from safe import __version__  # here, for it is not yet set while the package is being imported
-
     return {
         "version": __version__,
         "commit": _commit(),
