@@ -57,10 +57,8 @@ def success_table(results: Mapping[Experiment, pd.DataFrame]) -> pd.DataFrame:
         generations = runs.generation[counted]
         successes = int(runs.success.sum())
         low, high = success_interval(successes, len(runs))
-        paper, paper_time = (
-            _published_for(experiment, "successes"),
-            _published_for(experiment, "generations to success"),
-        )
+        paper = _published_for(experiment, experiment.algorithm.name, "successes")
+        paper_time = _published_for(experiment, experiment.algorithm.name, "generations to success")
         p_value = np.nan
         if not np.isnan(paper["n"]):
             both = [(successes, len(runs) - successes), (paper["mean"], paper["n"] - paper["mean"])]
@@ -88,7 +86,7 @@ def readable_success_table(table: pd.DataFrame) -> pd.DataFrame:
         rate = row.paper_successes / row.paper_runs
         rows[index] = {
             "successes": f"{row.successes:.0f} of {row.runs:.0f}",
-            "95 % interval": f"{row.low * row.runs:.0f} to {row.high * row.runs:.0f}",
+            "95 % interval": f"{row.low * row.runs:.3g} to {row.high * row.runs:.3g}",
             "in the paper": _show("{:.0f} of {:.0f}", row.paper_successes, row.paper_runs),
             "paper within": "–" if np.isnan(rate) else "yes" if row.low <= rate <= row.high else "no",
             "p": _show("{:.2f}", row.p_value),
@@ -118,7 +116,7 @@ def evolved_table(results: Mapping[Experiment, pd.DataFrame]) -> pd.DataFrame:
         successful = runs[runs.success]
         for item in (*COEFFICIENTS, *WEIGHT_COLUMNS):
             sample = successful[item]
-            paper = _published_for(experiment, "coefficient" if item in COEFFICIENTS else "weight", item)
+            paper = _published_for(experiment, item) if experiment.algorithm.name == "safe" else _NOT_PUBLISHED
             mean, sd, n = sample.mean(), sample.std(ddof=0), len(sample)
             error = np.sqrt(sd**2 / n + paper["sd"] ** 2 / paper["n"]) if n > 1 else np.nan
             rows[experiment.maze.name, item] = {
@@ -168,11 +166,13 @@ def _show(template: str, *values: float) -> str:
     return "–" if np.isnan(values).any() else template.format(*values)
 
 
-def _published_for(experiment: Experiment, quantity: str, item: str | None = None) -> pd.Series:
-    """Mean, sd and n of a quantity in the paper; not a number where the paper has no such experiment or quantity.
+_NOT_PUBLISHED = pd.Series({"mean": np.nan, "sd": np.nan, "n": np.nan})
 
-    The item is the algorithm where none is named. What an experiment is called does not make it the paper's: its maze,
-    algorithm and parameters do.
+
+def _published_for(experiment: Experiment, item: str, quantity: str | None = None) -> pd.Series:
+    """Mean, sd and n of an item in the paper; not a number where the paper has no such experiment or item.
+
+    What an experiment is called does not make it the paper's: its maze, algorithm and parameters do.
     """
     maze, algorithm = experiment.maze, experiment.algorithm
     is_the_papers = (
@@ -182,8 +182,9 @@ def _published_for(experiment: Experiment, quantity: str, item: str | None = Non
         and experiment.parameters == Parameters()
     )
     paper = published()
-    is_item = (paper["item"] == (item or algorithm.name)) & paper.quantity.str.startswith(quantity)
-    found = paper[(paper.maze == maze.name) & is_item]
+    found = paper[(paper.maze == maze.name) & (paper["item"] == item)]
+    if quantity is not None:
+        found = found[found.quantity == quantity]
     if not is_the_papers or found.empty:
-        return pd.Series({"mean": np.nan, "sd": np.nan, "n": np.nan})
+        return _NOT_PUBLISHED
     return found[["mean", "sd", "n"]].iloc[0]

@@ -56,14 +56,14 @@ def test_a_table_beside_the_papers():
     assert words.index.names == ["maze", "algorithm"]
     assert words.loc["maze1", "safe"].tolist() == [
         "2 of 4",
-        "1 to 3",
+        "0.6 to 3.4",
         "328 of 500",
         "yes",
         "0.61",
         "15 (5)",
         "141 (130)",
     ]
-    assert words.loc["my maze", "safe"].tolist() == ["4 of 4", "2 to 4", "–", "–", "–", "2 (2)", "–"]
+    assert words.loc["my maze", "safe"].tolist() == ["4 of 4", "2.04 to 4", "–", "–", "–", "2 (2)", "–"]
 
 
 @pytest.mark.parametrize(
@@ -93,7 +93,11 @@ def test_what_was_evolved_beside_the_papers():
     evolved = {"a": [0.8, 0.6, 0.0], "b": [1.0, 1.0, 0.0]} | {f"p{i}": [i / 100, i / 50, 9.0] for i in range(1, 17)}
     mine = safe.Maze.from_drawing("S.G", name="my maze")
     table = statistics.evolved_table(
-        {experiment("maze2", "safe"): runs(2, 3, **evolved), experiment(mine, "safe"): runs(2, 3, **evolved)}
+        {
+            experiment("maze2", "safe"): runs(2, 3, **evolved),
+            experiment(mine, "safe"): runs(2, 3, **evolved),
+            experiment("maze1", "fixed"): runs(2, 3, **evolved),
+        }
     )
     a = table.loc["maze2", "a"]
     assert (a["mean"], a.sd, a.n) == pytest.approx((0.7, 0.1, 2))
@@ -102,6 +106,7 @@ def test_what_was_evolved_beside_the_papers():
     assert a.allowed == pytest.approx(1.95996 * np.sqrt(0.1**2 / 2 + 0.18**2 / 17), rel=1e-5)
     p12 = table.loc["maze2", "p12"]
     assert (p12["mean"], p12.paper_mean, p12.paper_sd) == pytest.approx((0.18, 0.54, 0.29))
+    assert table.loc["maze1", ["paper_mean", "difference", "allowed"]].isna().all(axis=None)
     assert table.loc["my maze", ["paper_mean", "difference", "allowed"]].isna().all(axis=None)
 
     words = statistics.readable_evolved_table(table)
