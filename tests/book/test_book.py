@@ -21,6 +21,11 @@ def test_every_chapter_is_a_page(checkout, pages):
     assert {f"{chapter}.html" for chapter in chapters} <= set(pages)
 
 
+def test_the_page_at_the_top_leads_to_the_book(pages):
+    assert 'content="0; url=book/index.html"' in pages["index.html"]
+    assert 'href="_static/favicon.svg"' in pages["index.html"]
+
+
 def test_every_notebook_is_a_chapter(checkout):
     contents = (checkout / "book" / "_toc.yml").read_text()
     for notebook in (checkout / "notebooks").glob("*.ipynb"):
