@@ -22,7 +22,7 @@ from safe.evolution import Generation
 from safe.maze import Maze
 
 STYLE = Path(__file__).with_name("figures.mplstyle")
-WALL, START, GOAL, PATH = "#404040", "#009E73", "#D55E00", "#0072B2"
+WALL, START, GOAL, PATH, FAINT = "#404040", "#009E73", "#D55E00", "#0072B2", "#999999"
 
 _DIRECTIONS = {"right": (0, 1), "left": (0, -1), "down": (1, 0), "up": (-1, 0)}  # rows down, columns right
 
@@ -57,7 +57,7 @@ def draw_maze(axes: Axes, maze: Maze) -> None:
             label=label,
             linestyle="none",
         )
-    axes.set(title=maze.name, xticks=[], yticks=[], aspect="equal")
+    axes.set(xticks=[], yticks=[], aspect="equal")
     for spine in axes.spines.values():
         spine.set_visible(False)
 
@@ -198,14 +198,14 @@ def plot_generation(maze: Maze, generation: Generation) -> tuple[Figure, np.ndar
     figure, grid = plt.subplots(1, 1 + several, figsize=(4.6 * (1 + several), 5), squeeze=False)
     draw_maze(grid[0, 0], maze)
     archived, _ = generation.archive
-    grid[0, 0].plot(archived[:, 1], archived[:, 0], ".", color="#999999", markersize=3, label="archive")
+    grid[0, 0].plot(archived[:, 1], archived[:, 0], ".", color=FAINT, markersize=3, label="archive")
     ends = generation.endpoints
     grid[0, 0].plot(ends[:, 1], ends[:, 0], ".", color=PATH, markersize=6, label="end points")
     grid[0, 0].set_title(f"generation {generation.generation}: nearest so far {generation.distance} cells")
     grid[0, 0].legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncols=4, fontsize="small", columnspacing=1)
     if several:
         won = np.bincount(generation.winners, minlength=len(generation.objectives)) > 0
-        for chosen, colour, label in ((~won, "#999999", "won nowhere"), (won, GOAL, "gave some solution its fitness")):
+        for chosen, colour, label in ((~won, FAINT, "won nowhere"), (won, GOAL, "gave some solution its fitness")):
             a, b = generation.objectives[chosen].T
             grid[0, 1].plot(a, b, ".", color=colour, markersize=7, label=label)
         grid[0, 1].set(title="objective functions", xlabel="a (closeness)", ylabel="b (novelty)", aspect="equal")

@@ -57,8 +57,8 @@ def success_table(results: Mapping[Experiment, pd.DataFrame]) -> pd.DataFrame:
         generations = runs.generation[counted]
         successes = int(runs.success.sum())
         low, high = success_interval(successes, len(runs))
-        paper = _published_for(experiment, experiment.algorithm.name, "successes")
-        paper_time = _published_for(experiment, experiment.algorithm.name, "generations to success")
+        published_here = _published_for(experiment).reindex(["successes", "generations to success"])
+        (_, paper), (_, paper_time) = published_here.iterrows()
         p_value = np.nan
         if not np.isnan(paper["n"]):
             both = [(successes, len(runs) - successes), (paper["mean"], paper["n"] - paper["mean"])]
@@ -114,9 +114,8 @@ def evolved_table(results: Mapping[Experiment, pd.DataFrame]) -> pd.DataFrame:
     rows = {}
     for experiment, runs in results.items():
         successful = runs[runs.success]
-        for item in (*COEFFICIENTS, *WEIGHT_COLUMNS):
+        for item, paper in _published_for(experiment).reindex([*COEFFICIENTS, *WEIGHT_COLUMNS]).iterrows():
             sample = successful[item]
-            paper = _published_for(experiment, item) if experiment.algorithm.name == "safe" else _NOT_PUBLISHED
             mean, sd, n = sample.mean(), sample.std(ddof=0), len(sample)
             error = np.sqrt(sd**2 / n + paper["sd"] ** 2 / paper["n"]) if n > 1 else np.nan
             rows[experiment.maze.name, item] = {
@@ -166,12 +165,10 @@ def _show(template: str, *values: float) -> str:
     return "–" if np.isnan(values).any() else template.format(*values)
 
 
-_NOT_PUBLISHED = pd.Series({"mean": np.nan, "sd": np.nan, "n": np.nan})
+def _published_for(experiment: Experiment) -> pd.DataFrame:
+    """What the paper reports of an experiment: mean, sd and n; nothing where the experiment is not the paper's.
 
-
-def _published_for(experiment: Experiment, item: str, quantity: str | None = None) -> pd.Series:
-    """Mean, sd and n of an item in the paper; not a number where the paper has no such experiment or item.
-
+    Indexed by quantity ("successes", "generations to success") and, for SAFE, by what was evolved (a, b, p1..p16).
     What an experiment is called does not make it the paper's: its maze, algorithm and parameters do.
     """
     maze, algorithm = experiment.maze, experiment.algorithm
@@ -182,9 +179,7 @@ def _published_for(experiment: Experiment, item: str, quantity: str | None = Non
         and experiment.parameters == Parameters()
     )
     paper = published()
-    found = paper[(paper.maze == maze.name) & (paper["item"] == item)]
-    if quantity is not None:
-        found = found[found.quantity == quantity]
-    if not is_the_papers or found.empty:
-        return _NOT_PUBLISHED
-    return found[["mean", "sd", "n"]].iloc[0]
+    paper = paper[(paper.maze == maze.name) & is_the_papers]
+    counted = paper[paper["item"] == algorithm.name].set_index("quantity")
+    evolved = paper[~paper["item"].isin(ALGORITHMS) & (algorithm.name == "safe")].set_index("item")
+    return pd.concat([counted, evolved])[["mean", "sd", "n"]]
