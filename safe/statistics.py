@@ -2,41 +2,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, fields
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from scipy import stats
 
 from safe import checks
 from safe.algorithms import ALGORITHMS, COEFFICIENTS, COMPONENTS, Parameters
+from safe.comparison import Comparison, compare_means, compare_rates, success_interval
 from safe.experiment import WEIGHT_COLUMNS, Experiment
 from safe.maze import SENSORS, load_maze, maze_names
 
-CONFIDENCE = 0.95
+_WEIGHED = dict(zip(COEFFICIENTS, COMPONENTS, strict=True)) | dict(
+    zip(WEIGHT_COLUMNS, (f"{sensor} in {total}" for total in "hv" for sensor in SENSORS), strict=True)
+)
 
 
 def published() -> pd.DataFrame:
-    """Every number in the paper's results: table, maze, item, quantity, mean (or the number itself), sd, n."""
+    """Every number of the paper: table, maze, item, quantity, mean (or the number itself), sd, n."""
     return pd.read_csv(Path(__file__).with_name("published.csv"))
 
 
-def success_interval(successes: int, runs: int) -> tuple[float, float]:
-    """Wilson's 95 % interval for the rate of success, its two ends in [0, 1].
+def parameter_table(parameters: Parameters = Parameters()) -> pd.DataFrame:
+    """Parameters beside the paper's Table 1.
 
-    Examples
-    --------
-    >>> low, high = success_interval(322, 500)
-    >>> round(low, 3), round(high, 3)
-    (0.601, 0.685)
+    Returns
+    -------
+    pandas.DataFrame, one row for each parameter
+        meaning, value, in the paper.
     """
-    interval = stats.binomtest(successes, runs).proportion_ci(CONFIDENCE, method="wilson")
-    return float(interval.low), float(interval.high)
+    paper = published().query("table == '1'").set_index("item")
+    values = asdict(parameters)
+    return pd.DataFrame(
+        {
+            "meaning": paper.quantity.reindex(values),
+            "value": [f"{value:g}" for value in values.values()],
+            "in the paper": [f"{value:g}" for value in paper["mean"].reindex(values)],
+        },
+        index=pd.Index(values, name="parameter"),
+    )
 
 
 def success_table(results: Mapping[Experiment, pd.DataFrame]) -> pd.DataFrame:
-    """Successes and generations to success, beside the paper's where an experiment is one of the paper's.
+    """Successes, beside the paper's where an experiment is one of the paper's.
 
     Parameters
     ----------
@@ -46,106 +56,109 @@ def success_table(results: Mapping[Experiment, pd.DataFrame]) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame, one row for each experiment, indexed by the names of maze and algorithm
-        successes, runs; low and high, the ends of the 95 % interval of the rate; mean and sd (ddof = 0) of the
-        generations to success; paper_successes, paper_runs, paper_mean and paper_sd; p_value, of Fisher's exact
-        test that both rates are the same. Not a number where there is none.
+        successes, runs; low and high, the ends of the 95 % interval of the rate; paper_successes and paper_runs; and
+        what `compare_rates` tells of the two: difference, difference_low and difference_high, p_value, effect,
+        p_equivalence. Not a number where there is none.
     """
     rows = {}
     for experiment, runs in results.items():
-        # random search goes on after a success, so it has no generations to success
-        counted = runs.success & (not experiment.algorithm.is_random_search)
-        generations = runs.generation[counted]
         successes = int(runs.success.sum())
         low, high = success_interval(successes, len(runs))
-        published_here = _published_for(experiment).reindex(["successes", "generations to success"])
-        (_, paper), (_, paper_time) = published_here.iterrows()
-        p_value = np.nan
+        paper = _published_for(experiment).reindex(["successes"]).iloc[0]
+        compared = dict.fromkeys(field.name for field in fields(Comparison))
         if not np.isnan(paper["n"]):
-            both = [(successes, len(runs) - successes), (paper["mean"], paper["n"] - paper["mean"])]
-            p_value = stats.fisher_exact(np.array(both, dtype=int)).pvalue
+            compared = asdict(compare_rates(successes, len(runs), int(paper["mean"]), int(paper["n"])))
         rows[experiment.maze.name, experiment.algorithm.name] = {
             "successes": successes,
             "runs": len(runs),
             "low": low,
             "high": high,
-            "mean": generations.mean(),
-            "sd": generations.std(ddof=0),
             "paper_successes": paper["mean"],
             "paper_runs": paper["n"],
-            "paper_mean": paper_time["mean"],
-            "paper_sd": paper_time["sd"],
-            "p_value": p_value,
-        }
-    return pd.DataFrame.from_dict(rows, orient="index").rename_axis(["maze", "algorithm"])
+            "difference": compared.pop("difference"),
+            "difference_low": compared.pop("low"),
+            "difference_high": compared.pop("high"),
+        } | compared
+    return pd.DataFrame.from_dict(rows, orient="index", dtype=float).rename_axis(["maze", "algorithm"])
 
 
 def readable_success_table(table: pd.DataFrame) -> pd.DataFrame:
     """A table of `success_table` to read: intervals as counts out of the runs, a dash for what is not there."""
     rows = {}
     for index, row in table.iterrows():
-        rate = row.paper_successes / row.paper_runs
+        points = 100 * row[["difference", "difference_low", "difference_high"]]
         rows[index] = {
             "successes": f"{row.successes:.0f} of {row.runs:.0f}",
             "95 % interval": f"{row.low * row.runs:.3g} to {row.high * row.runs:.3g}",
             "in the paper": _show("{:.0f} of {:.0f}", row.paper_successes, row.paper_runs),
-            "paper within": "–" if np.isnan(rate) else "yes" if row.low <= rate <= row.high else "no",
+            "difference, percentage points": _show("{:+.1f} ({:+.1f} to {:+.1f})", *points),
             "p": _show("{:.2f}", row.p_value),
-            "generations to success, mean (sd)": _show("{:.0f} ({:.0f})", row["mean"], row.sd),
-            "mean (sd) in the paper": _show("{:.0f} ({:.0f})", row.paper_mean, row.paper_sd),
         }
     return pd.DataFrame.from_dict(rows, orient="index").rename_axis(table.index.names)
 
 
-def evolved_table(results: Mapping[Experiment, pd.DataFrame]) -> pd.DataFrame:
-    """What successful runs of SAFE evolved, beside the paper's: coefficients and parameters of the controllers.
+def generations_table(results: Mapping[Experiment, pd.DataFrame]) -> pd.DataFrame:
+    """Generations to success, averaged over the successful runs, beside the paper's; rows and columns as `means_table`.
+
+    Random search goes on after a success, so it has none.
+    """
+    samples = {
+        (experiment, "generations to success"): runs.generation[runs.success]
+        for experiment, runs in results.items()
+        if not experiment.algorithm.is_random_search
+    }
+    algorithms = [experiment.algorithm.name for experiment, _ in samples]
+    return means_table(samples).droplevel("item").set_index(pd.Index(algorithms, name="algorithm"), append=True)
+
+
+def evolved_table(results: Mapping[Experiment, pd.DataFrame], items: Sequence[str]) -> pd.DataFrame:
+    """What successful runs evolved: items of a, b, p1..p16, beside the paper's; rows and columns as `means_table`."""
+    samples = {(experiment, item): runs[runs.success][item] for experiment, runs in results.items() for item in items}
+    table = means_table(samples)
+    return table.set_index(
+        pd.Index([_WEIGHED[item] for item in table.index.get_level_values("item")], name="weighs"), append=True
+    )
+
+
+def means_table(samples: Mapping[tuple[Experiment, str], pd.Series]) -> pd.DataFrame:
+    """Averages of samples, beside the paper's.
 
     Parameters
     ----------
-    results : mapping of Experiment to DataFrame
-        The runs of each experiment, as `safe.run` gives them.
+    samples : mapping of (Experiment, item) to Series
+        The item is what the paper's number is found by: "generations to success", or one of a, b, p1..p16.
 
     Returns
     -------
-    pandas.DataFrame, one row for each maze and item: a, b, p1..p16
-        mean, sd (ddof = 0) and n, the successful runs; paper_mean, paper_sd and paper_n; difference, of the means;
-        allowed, the most that the difference is in 95 of 100 pairs of samples of these sizes from one population.
-        Not a number where there is none; nothing can be said of what is allowed from a single run.
+    pandas.DataFrame, one row for each sample, indexed by the names of maze and item
+        mean, sd (ddof = 0) and n; paper_mean, paper_sd and paper_n; and what `compare_means` tells of the two:
+        difference, low, high, p_value, effect, p_equivalence. Not a number where there is none.
     """
-    rows = {}
-    for experiment, runs in results.items():
-        successful = runs[runs.success]
-        for item, paper in _published_for(experiment).reindex([*COEFFICIENTS, *WEIGHT_COLUMNS]).iterrows():
-            sample = successful[item]
-            mean, sd, n = sample.mean(), sample.std(ddof=0), len(sample)
-            error = np.sqrt(sd**2 / n + paper["sd"] ** 2 / paper["n"]) if n > 1 else np.nan
-            rows[experiment.maze.name, item] = {
-                "mean": mean,
-                "sd": sd,
-                "n": n,
-                "paper_mean": paper["mean"],
-                "paper_sd": paper["sd"],
-                "paper_n": paper["n"],
-                "difference": mean - paper["mean"],
-                "allowed": stats.norm.ppf((1 + CONFIDENCE) / 2) * error,
-            }
-    return pd.DataFrame.from_dict(rows, orient="index").rename_axis(["maze", "item"])
+    ours, theirs = ("mean", "sd", "n"), ("paper_mean", "paper_sd", "paper_n")
+    rows = []
+    for (experiment, item), sample in samples.items():
+        paper = _published_for(experiment).reindex([item]).iloc[0]
+        values = sample.mean(), sample.std(ddof=0), len(sample), paper["mean"], paper["sd"], paper["n"]
+        rows.append(dict(zip(ours + theirs, values, strict=True)) | asdict(compare_means(*values)))
+    index = pd.MultiIndex.from_arrays(
+        [[experiment.maze.name for experiment, _ in samples], [item for _, item in samples]], names=["maze", "item"]
+    )
+    return pd.DataFrame(rows, index, columns=[*ours, *theirs, *(field.name for field in fields(Comparison))])
 
 
-def readable_evolved_table(table: pd.DataFrame) -> pd.DataFrame:
-    """A table of `evolved_table` to read: the mazes side by side, a dash for what is not there."""
-    columns = {}
-    for maze, rows in table.groupby(level="maze", sort=False):
-        by_item = rows.droplevel("maze")
-        columns |= {
-            (maze, "mean (sd)"): [_show("{:.2f} ({:.2f})", *v) for v in by_item[["mean", "sd"]].to_numpy()],
-            (maze, "paper"): [_show("{:.2f} ({:.2f})", *v) for v in by_item[["paper_mean", "paper_sd"]].to_numpy()],
-            (maze, "difference"): [
-                _show("{:+.2f} (±{:.2f})", *v) for v in by_item[["difference", "allowed"]].to_numpy()
-            ],
+def readable_means_table(table: pd.DataFrame, digits: int = 2) -> pd.DataFrame:
+    """A table of `means_table` to read, a dash for what is not there; differences of fractions get a digit more."""
+    one, signed = f"{{:.{digits}f}} ({{:.{digits}f}})", f"{{:+.{digits + bool(digits)}f}}"
+    two = f"{signed} ({signed} to {signed})"
+    return pd.DataFrame(
+        {
+            "runs": table.n,
+            "mean (sd)": [_show(one, *row) for row in table[["mean", "sd"]].to_numpy()],
+            "in the paper": [_show(one, *row) for row in table[["paper_mean", "paper_sd"]].to_numpy()],
+            "difference (95 % interval)": [_show(two, *row) for row in table[["difference", "low", "high"]].to_numpy()],
+            "p": [_show("{:.2f}", p) for p in table.p_value],
         }
-    weighed = [*COMPONENTS, *(f"{sensor} in {total}" for total in "hv" for sensor in SENSORS)]
-    index = pd.MultiIndex.from_arrays([table.index.unique("item"), weighed], names=["", "weighs"])
-    return pd.DataFrame(columns, index=index)
+    )
 
 
 def first_solutions(results: pd.DataFrame, n: int) -> pd.DataFrame:

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 
 from safe import Maze, load_maze
-from safe.maze import SENSORS, maze_names, parse_maze
+from safe.maze import SENSORS, maze_names, parse_maze, ways_to_goal
 from tests import oracle
 from tests.conftest import mazes
 
@@ -193,3 +193,16 @@ def test_a_file_that_is_no_text(tmp_path):
     (tmp_path / "noise").write_bytes(bytes(range(128, 256)))
     with pytest.raises(ValueError, match=r"maze must be one of 'maze1', 'maze2' or the path .* \(not a text file\)"):
         load_maze(tmp_path / "noise")
+
+
+@given(mazes())
+def test_the_way_to_the_goal_is_one_cell_longer_than_from_the_best_neighbour(maze):
+    ways = ways_to_goal(maze)
+    assert ways[maze.goal] == 0
+    assert ways[maze.start] >= maze.distance(maze.start)
+    assert (ways[maze.walls] == -1).all()
+    around = np.pad(ways, 1, constant_values=-1)
+    beside = np.stack([around[:-2, 1:-1], around[2:, 1:-1], around[1:-1, :-2], around[1:-1, 2:]])
+    nearest = np.where(beside < 0, ways.size, beside).min(axis=0)
+    assert (nearest[ways > 0] + 1 == ways[ways > 0]).all()
+    assert (beside.max(axis=0)[(ways < 0) & ~maze.walls] < 0).all()  # what is cut off has no neighbour that is not

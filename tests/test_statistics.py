@@ -1,3 +1,5 @@
+import re
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -16,18 +18,21 @@ def runs(successes, n, generations=(), **columns):
 
 def test_the_papers_numbers_come_along():
     paper = statistics.published()
-    assert len(paper) == 50
-    assert set(paper.maze) == {"maze1", "maze2"}
+    assert paper.table.value_counts().to_dict() == {"3": 32, "2": 12, "1": 11, "text": 6}
+    assert set(paper.maze.dropna()) == {"maze1", "maze2"}
     assert paper[paper.quantity.str.startswith("weight of")].groupby("maze").size().tolist() == [16, 16]
 
 
-@pytest.mark.parametrize(
-    ("successes", "n", "low", "high"),
-    # Newcombe, Statistics in Medicine 17 (1998) 857-872, Table I, method 3
-    [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611), (1, 29, 0.0061, 0.1718)],
-)
-def test_wilsons_interval(successes, n, low, high):
-    assert statistics.success_interval(successes, n) == pytest.approx((low, high), abs=5e-5)
+def test_parameters_beside_the_papers():
+    table = statistics.parameter_table(safe.Parameters(k=7, crossover=0.25))
+    assert table.index.tolist() == list(vars(safe.Parameters()))
+    assert table.loc["k"].tolist() == ["nearest neighbours that count for novelty", "7", "15"]
+    assert table.loc["crossover", ["value", "in the paper"]].tolist() == ["0.25", "0.8"]
+
+
+def test_the_default_parameters_are_the_papers():
+    table = statistics.parameter_table()
+    assert (table["value"] == table["in the paper"]).all()
 
 
 def experiment(maze, algorithm, **options):
@@ -45,25 +50,39 @@ def test_a_table_beside_the_papers():
         }
     )
     ours = table.loc["maze1", "safe"]
-    assert (ours.successes, ours.runs, ours["mean"], ours.sd) == (2, 4, 15, 5)
-    assert (ours.paper_successes, ours.paper_runs, ours.paper_mean, ours.paper_sd) == (328, 500, 141, 130)
+    assert (ours.successes, ours.runs, ours.paper_successes, ours.paper_runs) == (2, 4, 328, 500)
+    assert ours.difference == pytest.approx(0.5 - 328 / 500)
     assert ours.p_value == pytest.approx(0.6117, abs=1e-3)
-    assert np.isnan(table.loc[("maze1", "standard"), "mean"])
-    assert np.isnan(table.loc[("maze1", "random"), "mean"])
-    assert np.isnan(table.loc[("my maze", "safe"), ["paper_successes", "p_value"]].to_numpy(float)).all()
+    assert table.loc[("my maze", "safe"), ["paper_successes", "difference", "p_value"]].isna().all()
 
     words = statistics.readable_success_table(table)
     assert words.index.names == ["maze", "algorithm"]
-    assert words.loc["maze1", "safe"].tolist() == [
-        "2 of 4",
-        "0.6 to 3.4",
-        "328 of 500",
-        "yes",
-        "0.61",
-        "15 (5)",
-        "141 (130)",
-    ]
-    assert words.loc["my maze", "safe"].tolist() == ["4 of 4", "2.04 to 4", "–", "–", "–", "2 (2)", "–"]
+    assert words.loc["maze1", "safe"].tolist()[:3] == ["2 of 4", "0.6 to 3.4", "328 of 500"]
+    assert re.fullmatch(r"-15.6 \(-50.* to \+19.*\)", words.loc["maze1", "safe"].iloc[3])
+    assert words.loc["maze1", "safe"].iloc[4] == "0.61"
+    assert words.loc["my maze", "safe"].tolist() == ["4 of 4", "2.04 to 4", "–", "–", "–"]
+
+
+def test_generations_to_success_beside_the_papers():
+    mine = safe.Maze.from_drawing("S.G", name="my maze")
+    table = statistics.generations_table(
+        {
+            experiment("maze1", "safe"): runs(2, 4, [10, 20]),
+            experiment("maze1", "standard"): runs(0, 4),
+            experiment("maze1", "random"): runs(1, 4),
+            experiment(mine, "safe"): runs(4, 4, [1, 1, 1, 5]),
+        }
+    )
+    assert table.index.tolist() == [("maze1", "safe"), ("maze1", "standard"), ("my maze", "safe")]
+    ours = table.loc["maze1", "safe"]
+    assert (ours["mean"], ours.sd, ours.n) == (15, 5, 2)
+    assert (ours.paper_mean, ours.paper_sd, ours.paper_n, ours.difference) == (141, 130, 328, -126)
+
+    words = statistics.readable_means_table(table, digits=0)
+    assert words.loc["maze1", "safe"].tolist()[:3] == [2, "15 (5)", "141 (130)"]
+    assert words.loc["maze1", "safe"].iloc[3].startswith("-126 (-")
+    assert words.loc["maze1", "standard"].tolist() == [0, "–", "–", "–", "–"]
+    assert words.loc["my maze", "safe"].tolist() == [4, "2 (2)", "–", "–", "–"]
 
 
 @pytest.mark.parametrize(
@@ -80,15 +99,6 @@ def test_what_is_only_called_like_the_papers_is_not_compared_with_it(change):
     assert np.isnan(table.paper_successes.iloc[0])
 
 
-def test_whether_the_paper_lies_within():
-    inside = {"maze1": 328, "maze2": 17}
-    outside = {"maze1": 250, "maze2": 100}
-    for expected, counts in (("yes", inside), ("no", outside)):
-        results = {experiment(maze, "safe"): runs(count, 500) for maze, count in counts.items()}
-        words = statistics.readable_success_table(statistics.success_table(results))
-        assert set(words["paper within"]) == {expected}
-
-
 def test_what_was_evolved_beside_the_papers():
     evolved = {"a": [0.8, 0.6, 0.0], "b": [1.0, 1.0, 0.0]} | {f"p{i}": [i / 100, i / 50, 9.0] for i in range(1, 17)}
     mine = safe.Maze.from_drawing("S.G", name="my maze")
@@ -97,38 +107,39 @@ def test_what_was_evolved_beside_the_papers():
             experiment("maze2", "safe"): runs(2, 3, **evolved),
             experiment(mine, "safe"): runs(2, 3, **evolved),
             experiment("maze1", "fixed"): runs(2, 3, **evolved),
-        }
+        },
+        ["a", "b", *WEIGHTS],
     )
-    a = table.loc["maze2", "a"]
+    a = table.loc["maze2", "a", "1 / distance"]
     assert (a["mean"], a.sd, a.n) == pytest.approx((0.7, 0.1, 2))
     assert (a.paper_mean, a.paper_sd, a.paper_n) == (0.83, 0.18, 17)
     assert a.difference == pytest.approx(-0.13)
-    assert a.allowed == pytest.approx(1.95996 * np.sqrt(0.1**2 / 2 + 0.18**2 / 17), rel=1e-5)
-    p12 = table.loc["maze2", "p12"]
+    p12 = table.loc["maze2", "p12", "goal_left in v"]
     assert (p12["mean"], p12.paper_mean, p12.paper_sd) == pytest.approx((0.18, 0.54, 0.29))
-    assert table.loc["maze1", ["paper_mean", "difference", "allowed"]].isna().all(axis=None)
-    assert table.loc["my maze", ["paper_mean", "difference", "allowed"]].isna().all(axis=None)
+    for maze in ("maze1", "my maze"):
+        assert table.loc[maze, ["paper_mean", "difference", "low", "p_value"]].isna().all(axis=None)
 
-    words = statistics.readable_evolved_table(table)
-    assert len(words) == 18
-    assert words.index[0] == ("a", "1 / distance")
-    assert words.index[13] == ("p12", "goal_left in v")
-    assert words["maze2"].iloc[0].tolist() == ["0.70 (0.10)", "0.83 (0.18)", "-0.13 (±0.16)"]
-    assert words["my maze"].iloc[0].tolist() == ["0.70 (0.10)", "–", "–"]
+    words = statistics.readable_means_table(table)
+    assert words.index.names == ["maze", "item", "weighs"]
+    assert len(words) == 3 * 18
+    ours = words.loc["maze2", "a", "1 / distance"]
+    assert ours.tolist()[:3] == [2, "0.70 (0.10)", "0.83 (0.18)"]
+    assert re.fullmatch(r"-0.130 \(-\S+ to \+\S+\)", ours.iloc[3])
+    assert words.loc["my maze", "a", "1 / distance"].tolist() == [2, "0.70 (0.10)", "–", "–", "–"]
 
 
 def test_the_papers_weights_are_named_as_ours():
     paper = statistics.published()
     named = dict(zip(paper["item"], paper.quantity, strict=True))
-    table = statistics.evolved_table({experiment("maze1", "safe"): runs(1, 1, a=1, b=1, **dict.fromkeys(WEIGHTS, 0))})
-    for item, weighs in statistics.readable_evolved_table(table).index[2:]:
+    table = statistics.evolved_table({experiment("maze1", "safe"): runs(1, 1, **dict.fromkeys(WEIGHTS, 0))}, WEIGHTS)
+    for _, item, weighs in table.index:
         assert named[item] == f"weight of {weighs}"
 
 
 def test_nothing_evolved():
-    table = statistics.evolved_table({experiment("maze1", "safe"): runs(0, 2, a=1, b=1, **dict.fromkeys(WEIGHTS, 0))})
-    words = statistics.readable_evolved_table(table)
-    assert words["maze1"].iloc[0].tolist() == ["–", "0.85 (0.16)", "–"]
+    table = statistics.evolved_table({experiment("maze1", "safe"): runs(0, 2, a=1, b=1)}, ["a", "b"])
+    words = statistics.readable_means_table(table)
+    assert words.iloc[0].tolist() == [0, "–", "0.85 (0.16)", "–", "–"]
 
 
 def test_first_solutions_are_successes_in_order_and_then_the_nearest():

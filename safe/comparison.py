@@ -1,0 +1,165 @@
+"""Two samples compared: rates of success, means, generations to success.
+
+Each comparison answers two questions. Is a difference detected: could two samples differ this much by chance, if both
+came from one source? And is equivalence shown: is a difference as large as MARGIN ruled out (two one-sided tests)?
+Where neither holds the samples are too small to tell.
+
+MARGIN is 0.2 on the scale of standardised effects, "small" in Cohen's sense, and was fixed before any comparison was
+made. For rates the effect is Cohen's h, the difference of arcsines 2 arcsin sqrt(rate), whose error does not depend
+on the rates: 0.2 is 10 percentage points near a rate of one half and 4 near a rate of 2 %. For means it is
+Cohen's d, the difference in standard deviations.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from scipy import stats
+from statsmodels.duration.survfunc import SurvfuncRight, survdiff
+from statsmodels.stats.power import NormalIndPower
+from statsmodels.stats.proportion import confint_proportions_2indep, proportion_effectsize
+
+CONFIDENCE = 0.95
+ALPHA = 1 - CONFIDENCE  # also the level of all tests
+MARGIN = 0.2  # the smallest effect that matters
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A first sample against a second."""
+
+    difference: float  # the first rate or mean less the second
+    low: float  # the lower end of the 95 % interval of the difference
+    high: float  # the upper end
+    p_value: float  # that the two differ so much by chance alone
+    effect: float  # the difference, standardised: Cohen's h or d
+    p_equivalence: (
+        float  # that an effect of MARGIN or more looks as small as this by chance: small, and it is ruled out
+    )
+
+
+def success_interval(successes: int, runs: int) -> tuple[float, float]:
+    """Wilson's 95 % interval for the rate of success, its two ends in [0, 1] (Wilson 1927).
+
+    Examples
+    --------
+    >>> low, high = success_interval(322, 500)
+    >>> round(low, 3), round(high, 3)
+    (0.601, 0.685)
+    """
+    interval = stats.binomtest(successes, runs).proportion_ci(CONFIDENCE, method="wilson")
+    return float(interval.low), float(interval.high)
+
+
+def compare_rates(successes: int, runs: int, other_successes: int, other_runs: int) -> Comparison:
+    """Two rates of success: Fisher's exact test, Newcombe's interval of the difference, Cohen's h.
+
+    Examples
+    --------
+    >>> comparison = compare_rates(328, 500, 322, 500)
+    >>> round(comparison.difference, 3), round(comparison.low, 3), round(comparison.high, 3)
+    (0.012, -0.047, 0.071)
+    >>> round(comparison.p_value, 2), round(comparison.p_equivalence, 3)
+    (0.74, 0.003)
+    """
+    low, high = confint_proportions_2indep(
+        successes, runs, other_successes, other_runs, method="newcomb", compare="diff", alpha=ALPHA
+    )
+    table = [[successes, runs - successes], [other_successes, other_runs - other_successes]]
+    effect = float(proportion_effectsize(successes / runs, other_successes / other_runs))
+    error = math.sqrt(1 / runs + 1 / other_runs)
+    return Comparison(
+        difference=successes / runs - other_successes / other_runs,
+        low=float(low),
+        high=float(high),
+        p_value=float(stats.fisher_exact(table).pvalue),
+        effect=effect,
+        p_equivalence=float(stats.norm.sf((MARGIN - abs(effect)) / error)),
+    )
+
+
+def compare_means(mean: float, sd: float, n: int, other_mean: float, other_sd: float, other_n: int) -> Comparison:
+    """Two means: Welch's test and interval, Cohen's d. Standard deviations are of the population (ddof = 0).
+
+    All is not a number where a sample is smaller than two.
+
+    Examples
+    --------
+    >>> comparison = compare_means(153, 137, 321, 145, 132, 322)
+    >>> round(comparison.low, 1), round(comparison.high, 1), round(comparison.p_value, 2)
+    (-12.9, 28.9, 0.45)
+    """
+    difference = mean - other_mean
+    if min(n, other_n) < 2 or sd == other_sd == 0:
+        return Comparison(difference, *[math.nan] * 5)
+    variances = sd**2 / (n - 1), other_sd**2 / (other_n - 1)  # of the means
+    error = math.sqrt(sum(variances))
+    freedom = error**4 / (variances[0] ** 2 / (n - 1) + variances[1] ** 2 / (other_n - 1))  # Welch, Satterthwaite
+    spread = math.sqrt((variances[0] * n + variances[1] * other_n) / 2)
+    allowed = float(stats.t.isf(ALPHA / 2, freedom)) * error
+    return Comparison(
+        difference=difference,
+        low=difference - allowed,
+        high=difference + allowed,
+        p_value=float(2 * stats.t.sf(abs(difference) / error, freedom)),
+        effect=difference / spread,
+        p_equivalence=float(stats.t.sf((MARGIN * spread - abs(difference)) / error, freedom)),
+    )
+
+
+def runs_to_tell(rate: float, other_rate: float, power: float = 0.8) -> int:
+    """How many runs of each it takes to detect the difference of two rates, with this probability.
+
+    Examples
+    --------
+    >>> runs_to_tell(0.5, 0.6)
+    388
+    """
+    effect = proportion_effectsize(rate, other_rate)
+    return math.ceil(NormalIndPower().solve_power(abs(effect), alpha=ALPHA, power=power))
+
+
+def arrivals(runs: pd.DataFrame) -> pd.DataFrame:
+    """The share of runs that have succeeded, by generation: one less the estimate of Kaplan and Meier.
+
+    Runs that did not succeed are censored: all that is known of them is that they had not by their last generation.
+
+    Parameters
+    ----------
+    runs : DataFrame with columns success and generation
+
+    Returns
+    -------
+    pandas.DataFrame, one row for each generation in which a run succeeded
+        generation; share, low and high: the estimate and the ends of its pointwise 95 % interval.
+    """
+    found = SurvfuncRight(runs.generation, runs.success.astype(int))
+    margin = float(stats.norm.isf(ALPHA / 2)) * np.asarray(found.surv_prob_se)
+    share = 1 - np.asarray(found.surv_prob)
+    return pd.DataFrame(
+        {
+            "generation": found.surv_times,
+            "share": share,
+            "low": (share - margin).clip(0),
+            "high": (share + margin).clip(max=1),
+        }
+    ).query("share > 0", engine="python")
+
+
+def compare_times(runs: pd.DataFrame, other: pd.DataFrame) -> tuple[float, float]:
+    """Generations to success of two experiments: Vargha and Delaney's A12, and p of the log-rank test.
+
+    A12 is the probability that a run of the first is quicker than a run of the second, ties counted half; a run that
+    did not succeed is slower than all that did. Not a number where no run succeeded.
+    """
+    if not (runs.success.any() or other.success.any()):
+        return math.nan, math.nan
+    samples = [sample.generation.where(sample.success, np.inf) for sample in (runs, other)]
+    later = stats.mannwhitneyu(*samples).statistic / (len(runs) * len(other))
+    both = pd.concat([runs, other])
+    which = np.repeat([0, 1], [len(runs), len(other)])
+    _, p_value = survdiff(both.generation, both.success.astype(int), which)
+    return 1 - float(later), float(p_value)

@@ -1,0 +1,424 @@
+"""The ledger: every claim of the paper's results, the number behind it, ours, and a verdict.
+
+There are three kinds of claims, each with a rule fixed beforehand that leads from the runs to the verdict.
+
+A number or a likeness ("328 of 500 runs", "as often as novelty search") is compared with ours.
+    not reproduced   a difference is detected
+    reproduced       an effect as large as `comparison.MARGIN` is ruled out
+    no difference detectable at this size   neither
+A direction ("more often than") is tested against no difference at all.
+    reproduced       a difference in this direction is detected
+    not reproduced   one in the other direction is detected
+    no difference detectable at this size   neither
+What no run of these experiments can decide is not testable here.
+
+A difference is detected where p, corrected by Holm's method for all claims of its family, is below 0.05. Families are
+the successes, the generations, the evolved values, and the claims that set one of our experiments against another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from scipy import stats
+from statsmodels.stats.multitest import multipletests
+
+from safe.algorithms import ALGORITHMS, COEFFICIENTS, Algorithm, Parameters
+from safe.comparison import ALPHA, compare_rates, success_interval
+from safe.experiment import WEIGHT_COLUMNS, Experiment, controller_of
+from safe.maze import load_maze, maze_names, ways_to_goal
+from safe.robot import endpoints
+from safe.statistics import evolved_table, generations_table, success_table
+
+REPRODUCED, NOT_REPRODUCED = "reproduced", "not reproduced"
+UNDECIDED, UNTESTABLE = "no difference detectable at this size", "not testable here"
+VERDICTS = (REPRODUCED, UNDECIDED, NOT_REPRODUCED, UNTESTABLE)
+
+UNEVOLVED = Algorithm("unevolved", objectives=None)  # SAFE's objective functions, drawn once and never bred
+RECORD = Path(__file__).with_name("ledger.csv")
+
+_NAMES = {
+    "standard": "the standard algorithm",
+    "novelty": "novelty search",
+    "safe": "SAFE",
+    "fixed": "fixed weights ½, ½",
+    "random": "random search",
+    "unevolved": "SAFE with objective functions that do not evolve",
+}
+Results = Mapping[Experiment, pd.DataFrame]
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One claim, examined; all but the verdict, which depends on the family."""
+
+    claim: str
+    source: str  # where in the paper
+    statement: str
+    family: str
+    paper: str  # the paper's number, or a dash
+    here: str
+    evidence: str  # the experiments and seeds behind it
+    test: str
+    direction: int = 0  # +1: claims that the first is larger; 0: claims a number or a likeness
+    difference: float = np.nan
+    low: float = np.nan
+    high: float = np.nan
+    p_value: float = np.nan
+    effect: float = np.nan
+    p_equivalence: float = np.nan
+
+
+def ledger(results: Results, repeats: Results = {}) -> pd.DataFrame:  # noqa: B006 - is only read
+    """Every claim that these runs bear on.
+
+    Parameters
+    ----------
+    results : mapping of Experiment to DataFrame
+        The runs of each experiment, one for each algorithm and maze. Those on other mazes, or with other
+        parameters, than the paper's bear on none of its claims.
+    repeats : mapping of Experiment to DataFrame
+        Runs of further seeds of some of them: a second look at what stood out.
+
+    Returns
+    -------
+    pandas.DataFrame, one row for each claim, indexed by a short name of it
+        source, statement, family, paper, here, evidence, test, direction, difference, low, high (the 95 % interval of
+        the difference), p_value, effect, p_equivalence, p_adjusted (Holm's, within the family), verdict.
+    """
+    results = {experiment: runs for experiment, runs in results.items() if _is_as_in_the_paper(experiment)}
+    named = {(e.maze.name, e.algorithm.name): e for e in results}
+    entries = list(_untestable())
+    if results:
+        entries = [
+            *_successes(results),
+            *_generations(results),
+            *_directions(results, named),
+            *_likenesses(results, named),
+            *_deceptions(results),
+            *_weighings(results),
+            *_evolved(results),
+            *entries,
+        ]
+    table = pd.DataFrame(entries).set_index("claim")
+    table["p_adjusted"] = table.groupby("family").p_value.transform(_holm)
+    table = pd.concat([table, _second_look(table, results, repeats)]).rename_axis("claim")
+    table["verdict"] = [_verdict(row) for _, row in table.iterrows()]
+    return table
+
+
+def stand_out(results: Results) -> list[Experiment]:
+    """The experiments whose successes differ from the paper's with p < 0.05, before any correction.
+
+    They deserve a second look, with further seeds.
+    """
+    table = success_table(results)
+    return [experiment for experiment, p in zip(results, table.p_value, strict=True) if p < ALPHA]
+
+
+def readable_ledger(table: pd.DataFrame) -> pd.DataFrame:
+    """A ledger to read: in words, and in the order of VERDICTS within each family."""
+    return pd.DataFrame(
+        {
+            "claim": table.statement,
+            "in the paper": table.paper,
+            "here": table.here,
+            "difference (95 % interval)": [_difference(row) for _, row in table.iterrows()],
+            "p (Holm)": [_p(value) for value in table.p_adjusted],
+            "p (equivalence)": [
+                _p(p) if direction == 0 else "–"
+                for p, direction in zip(table.p_equivalence, table.direction, strict=True)
+            ],
+            "verdict": table.verdict,
+        }
+    )
+
+
+def summary(table: pd.DataFrame) -> pd.DataFrame:
+    """How many claims got which verdict, by the place in the paper."""
+    counts = pd.crosstab(table.source, table.verdict)
+    counts = counts.reindex(index=table.source.unique(), columns=VERDICTS, fill_value=0)
+    counts.loc["all"] = counts.sum()
+    return counts.rename_axis(index="in the paper", columns=None)
+
+
+def recorded() -> pd.DataFrame:
+    """The ledger of 500 runs of each experiment, seed 0, as it was when it was last looked at by a person."""
+    return pd.read_csv(RECORD, index_col="claim", keep_default_na=False, na_values=[""])
+
+
+def changed(table: pd.DataFrame) -> list[str]:
+    """What has become of recorded verdicts: a line for each claim with the recorded evidence and another verdict."""
+    record = recorded().reindex(table.index)
+    other = (table.evidence == record.evidence) & (table.verdict != record.verdict)
+    return [f"{claim}: was {record.verdict[claim]!r}, is {table.verdict[claim]!r}" for claim in table.index[other]]
+
+
+def _is_as_in_the_paper(experiment: Experiment) -> bool:
+    maze = experiment.maze
+    return maze.name in maze_names() and maze == load_maze(maze.name) and experiment.parameters == Parameters()
+
+
+def _verdict(row: pd.Series) -> str:
+    if row.family == UNTESTABLE:
+        return UNTESTABLE
+    detected = row.p_adjusted < ALPHA
+    if row.direction == 0:
+        return NOT_REPRODUCED if detected else REPRODUCED if row.p_equivalence < ALPHA else UNDECIDED
+    if not detected:
+        return UNDECIDED
+    return REPRODUCED if row.difference * row.direction > 0 else NOT_REPRODUCED
+
+
+def _holm(p_values: pd.Series) -> pd.Series:
+    """Corrected for each other; what is not a number is not counted."""
+    adjusted = p_values.copy()
+    known = p_values.notna()
+    if known.any():
+        adjusted[known] = multipletests(p_values[known], method="holm")[1]
+    return adjusted
+
+
+def _successes(results: Results) -> Iterator[Entry]:
+    """The paper's counts of successes."""
+    table = success_table(results)
+    for (maze, algorithm), row in table[table.paper_runs.notna()].iterrows():
+        yield Entry(
+            claim=f"{maze} {algorithm} successes",
+            source="Table 2" if algorithm != "fixed" else "text",
+            statement=f"{_capital(_NAMES[algorithm])} on {maze}: runs that succeed",
+            family="successes",
+            paper=f"{row.paper_successes:.0f} of {row.paper_runs:.0f}",
+            here=f"{row.successes:.0f} of {row.runs:.0f}",
+            evidence=_evidence(results, maze, algorithm),
+            test="Fisher, Newcombe",
+            difference=row.difference,
+            low=row.difference_low,
+            high=row.difference_high,
+            p_value=row.p_value,
+            effect=row.effect,
+            p_equivalence=row.p_equivalence,
+        )
+
+
+def _generations(results: Results) -> Iterator[Entry]:
+    """The paper's mean generations to success."""
+    table = generations_table(results)
+    for (maze, algorithm), row in table[table.paper_n.notna()].iterrows():
+        yield _mean_entry(
+            row,
+            claim=f"{maze} {algorithm} generations",
+            source="Table 2",
+            statement=f"{_capital(_NAMES[algorithm])} on {maze}: generations to success, mean (sd)",
+            family="generations",
+            evidence=_evidence(results, maze, algorithm),
+            digits=0,
+        )
+
+
+def _evolved(results: Results) -> Iterator[Entry]:
+    """The paper's coefficients, and its Table 3."""
+    safe_alone = {e: runs for e, runs in results.items() if e.algorithm == ALGORITHMS["safe"]}
+    if not safe_alone:
+        return
+    table = evolved_table(safe_alone, [*COEFFICIENTS, *WEIGHT_COLUMNS])
+    for (maze, item, weighs), row in table[table.paper_n.notna()].iterrows():
+        yield _mean_entry(
+            row,
+            claim=f"{maze} {item}",
+            source="text" if item in COEFFICIENTS else "Table 3",
+            statement=f"{item} of successful runs on {maze} (weight of {weighs}), mean (sd)",
+            family="evolved values",
+            evidence=_evidence(results, maze, "safe"),
+            digits=2,
+        )
+
+
+def _mean_entry(row: pd.Series, digits: int, **what: str) -> Entry:
+    comparison = {name: row[name] for name in ("difference", "low", "high", "p_value", "effect", "p_equivalence")}
+    return Entry(
+        paper=f"{row.paper_mean:.{digits}f} ({row.paper_sd:.{digits}f}), n = {row.paper_n:.0f}",
+        here=f"{row['mean']:.{digits}f} ({row.sd:.{digits}f}), n = {row.n:.0f}" if row.n else "no success",
+        test="Welch",
+        **what,
+        **comparison,
+    )
+
+
+def _directions(results: Results, named: Mapping) -> Iterator[Entry]:
+    """Which of two experiments succeeds more often."""
+    pairs = [
+        (
+            (maze, better),
+            (maze, worse),
+            f"{_capital(_NAMES[better])} succeeds more often than {_NAMES[worse]} on {maze}",
+        )
+        for maze in ("maze1", "maze2")
+        for better in ("novelty", "safe")
+        for worse in ("standard", "random")
+    ] + [
+        (("maze1", name), ("maze2", name), f"maze2 is harder than maze1 for {_NAMES[name]}")
+        for name in ("novelty", "safe", "fixed")
+    ]
+    for first, second, statement in pairs:
+        yield from _pair(results, named, first, second, "Table 2", statement, direction=1)
+    for maze in ("maze1", "maze2"):
+        statement = f"That SAFE's objective functions evolve lets it succeed more often on {maze} than if they did not"
+        yield from _pair(results, named, (maze, "safe"), (maze, "unevolved"), "abstract", statement, direction=1)
+
+
+def _likenesses(results: Results, named: Mapping) -> Iterator[Entry]:
+    """Which of two experiments succeed equally often, as far as can be told."""
+    for maze in ("maze1", "maze2"):
+        for other, source in (("novelty", "Table 2"), ("fixed", "text")):
+            statement = f"SAFE succeeds as often as {_NAMES[other]} on {maze}"
+            yield from _pair(results, named, (maze, "safe"), (maze, other), source, statement, direction=0)
+
+
+def _pair(
+    results: Results, named: Mapping, first: tuple, second: tuple, source: str, statement: str, direction: int
+) -> Iterator[Entry]:
+    """One of our experiments set against another, where both have been run."""
+    if not (first in named and second in named):
+        return
+    counts = [(int(runs.success.sum()), len(runs)) for runs in (results[named[first]], results[named[second]])]
+    comparison = compare_rates(*counts[0], *counts[1])
+    paper = success_table({named[key]: results[named[key]] for key in (first, second)})
+    known = paper.paper_runs.notna().all()
+    yield Entry(
+        claim=f"{' '.join(first)} {'>' if direction else '~'} {' '.join(second)}",
+        source=source,
+        statement=statement,
+        family="our experiments",
+        paper=" against ".join(f"{row.paper_successes:.0f} of {row.paper_runs:.0f}" for _, row in paper.iterrows())
+        if known
+        else "–",
+        here=" against ".join(f"{successes} of {runs}" for successes, runs in counts),
+        evidence="; ".join(_evidence(results, *key) for key in (first, second)),
+        test="Fisher, Newcombe",
+        direction=direction,
+        **asdict(comparison),
+    )
+
+
+def _deceptions(results: Results) -> Iterator[Entry]:
+    """The standard algorithm's best robots end near the goal with most of the way still before them."""
+    for experiment, runs in results.items():
+        if experiment.algorithm == ALGORITHMS["standard"]:
+            maze = experiment.maze
+            ends = endpoints(maze, [controller_of(row) for _, row in runs.iterrows()], experiment.parameters.steps)
+            ways = ways_to_goal(maze)[tuple(ends.T)]
+            deceived = ways > 2 * maze.distance(ends)
+            yield _share_entry(
+                int(deceived.sum()),
+                len(runs),
+                claim=f"{maze.name} deceived",
+                source="Figure 2",
+                statement=f"The standard algorithm is deceived on {maze.name}: from where its best robot ends, the way "
+                "to the goal is more than twice the distance, in most runs",
+                evidence=_evidence(results, maze.name, "standard"),
+            )
+
+
+def _weighings(results: Results) -> Iterator[Entry]:
+    """The objective functions of successful runs weigh novelty more than closeness."""
+    for experiment, runs in results.items():
+        successful = runs[runs.success]
+        if experiment.algorithm == ALGORITHMS["safe"] and len(successful):
+            maze = experiment.maze.name
+            yield _share_entry(
+                int((successful.b > successful.a).sum()),
+                len(successful),
+                claim=f"{maze} b > a",
+                source="text",
+                statement=f"Objective functions that succeed on {maze} weigh novelty more than closeness, in most runs",
+                evidence=_evidence(results, maze, "safe"),
+            )
+
+
+def _share_entry(count: int, n: int, **what: str) -> Entry:
+    """That something is so in more than half of the runs."""
+    low, high = success_interval(count, n)
+    return Entry(
+        family="our experiments",
+        paper="–",
+        here=f"{count} of {n}",
+        test="binomial, Wilson",
+        direction=1,
+        difference=count / n - 0.5,
+        low=low - 0.5,
+        high=high - 0.5,
+        p_value=float(stats.binomtest(count, n).pvalue),
+        **what,
+    )
+
+
+def _untestable() -> Iterator[Entry]:
+    for claim, source, statement in (
+        (
+            "times",
+            "Table 2",
+            "How generations to success are distributed: only means and standard deviations are given",
+        ),
+        ("elsewhere", "abstract", "That a good objective function can be found by evolution in other problems as well"),
+    ):
+        yield Entry(claim, source, statement, UNTESTABLE, paper="–", here="–", evidence="–", test="–")
+
+
+def _second_look(table: pd.DataFrame, results: Results, repeats: Results) -> pd.DataFrame:
+    """Rows for the experiments that were repeated with further seeds, the seeds taken together.
+
+    The paper's number was chosen for standing out among those of its family, so its p is corrected for all of them.
+    """
+    pooled: dict[tuple[str, str], list[tuple[Experiment, pd.DataFrame]]] = {}
+    for experiment, runs in repeats.items():
+        pooled.setdefault((experiment.maze.name, experiment.algorithm.name), []).append((experiment, runs))
+    rows = {}
+    for (maze, algorithm), parts in pooled.items():
+        first = table.loc[f"{maze} {algorithm} successes"]
+        successes = sum(int(runs.success.sum()) for _, runs in parts)
+        n = sum(len(runs) for _, runs in parts)
+        count, _, of = first.paper.split()
+        comparison = compare_rates(successes, n, int(count), int(of))
+        rows[f"{maze} {algorithm} successes, second look"] = {
+            **first,
+            "statement": f"{first.statement}; a second look, with further seeds",
+            "here": f"{successes} of {n}",
+            "evidence": f"{_runs_of(maze, algorithm, n, *(experiment.seed for experiment, _ in parts))}",
+            **asdict(comparison),
+            "p_adjusted": min(1.0, comparison.p_value * int((table.family == "successes").sum())),
+        }
+    return pd.DataFrame.from_dict(rows, orient="index", columns=table.columns)
+
+
+def _evidence(results: Results, maze: str, algorithm: str) -> str:
+    (experiment,) = [e for e in results if (e.maze.name, e.algorithm.name) == (maze, algorithm)]
+    return _runs_of(maze, algorithm, len(results[experiment]), experiment.seed)
+
+
+def _runs_of(maze: str, algorithm: str, runs: int, *seeds: int) -> str:
+    return f"{algorithm} on {maze}: {runs} runs, seed {', '.join(map(str, seeds))}"
+
+
+def _capital(text: str) -> str:
+    return text[0].upper() + text[1:]
+
+
+def _difference(row: pd.Series) -> str:
+    """With its interval; of rates in percentage points."""
+    values = row[["difference", "low", "high"]].to_numpy(dtype=float)
+    if np.isnan(values).any():
+        return "–"
+    form = {"generations": "{:+.0f}", "evolved values": "{:+.3f}"}.get(row.family)
+    if form is None:
+        values, form = 100 * values, "{:+.1f}"
+    text = f"{form} ({form} to {form})".format(*values)
+    return text if row.family in ("generations", "evolved values") else f"{text} points"
+
+
+def _p(value: float) -> str:
+    return "–" if np.isnan(value) else "< 0.001" if value < 0.001 else f"{value:.3f}" if value < 0.1 else f"{value:.2f}"

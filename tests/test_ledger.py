@@ -1,0 +1,147 @@
+import numpy as np
+import pandas as pd
+import pytest
+
+import safe
+from safe import ledger, statistics
+from safe.experiment import COEFFICIENTS, WEIGHT_COLUMNS
+from tests import record
+
+
+@pytest.fixture(scope="module")
+def recorded_runs():
+    return record.recorded_runs()
+
+
+@pytest.fixture
+def results(recorded_runs):
+    return {experiment: recorded_runs[record.key(experiment)].copy() for experiment in record.experiments()}
+
+
+@pytest.fixture
+def repeats(recorded_runs, results):
+    return {
+        repetition: recorded_runs[record.key(repetition)]
+        for experiment in ledger.stand_out(results)
+        for repetition in record.repetitions(experiment)
+    }
+
+
+@pytest.mark.parametrize("experiment", record.experiments(), ids=record.key)
+def test_the_recorded_runs_are_those_that_the_package_makes(recorded_runs, experiment):
+    recorded = recorded_runs[record.key(experiment)]
+    assert len(recorded) == 500
+    solved = np.flatnonzero(recorded.success)[:2]
+    for number in {0, *solved.tolist()}:
+        made = safe.evolve(experiment.maze, experiment.algorithm, experiment.seed_sequence(number))
+        row = recorded.loc[number]
+        assert (made.success, made.generation, made.distance) == (row.success, row.generation, row.distance)
+        if row[WEIGHT_COLUMNS].notna().all():
+            assert made.controller == tuple(row[WEIGHT_COLUMNS])
+            assert made.coefficients == tuple(row[[*COEFFICIENTS]])
+
+
+def test_no_verdict_has_changed(results, repeats):
+    table = ledger.ledger(results, repeats)
+    assert ledger.changed(table) == []
+    record = ledger.recorded()
+    assert table.index.tolist() == record.index.tolist()
+    assert table.evidence.tolist() == record.evidence.tolist()
+    assert set(table.verdict) <= set(ledger.VERDICTS)
+    for column in ("difference", "low", "high", "p_value", "p_adjusted", "effect", "p_equivalence"):
+        assert table[column].to_numpy(float) == pytest.approx(record[column].to_numpy(float), rel=1e-3, nan_ok=True)
+
+
+@pytest.mark.parametrize(
+    ("maze", "algorithm", "claim", "verdict"),
+    [
+        ("maze1", "novelty", "maze1 novelty successes", "not reproduced"),
+        ("maze1", "safe", "maze1 safe > maze1 standard", "no difference detectable at this size"),
+    ],
+)
+def test_a_verdict_that_changes_is_noticed(results, maze, algorithm, claim, verdict):
+    (experiment,) = [e for e in results if (e.maze.name, e.algorithm.name) == (maze, algorithm)]
+    results[experiment]["success"] = False
+    lines = ledger.changed(ledger.ledger(results))
+    assert f"{claim}: was 'reproduced', is '{verdict}'" in lines
+
+
+def test_other_evidence_may_lead_to_another_verdict(results):
+    few = {experiment: runs.head(20) for experiment, runs in results.items()}
+    table = ledger.ledger(few)
+    assert table.loc["maze1 novelty successes", "verdict"] == ledger.UNDECIDED
+    assert ledger.changed(table) == []
+
+
+def test_the_papers_every_number_is_a_claim(results):
+    table = ledger.ledger(results)
+    numbers = statistics.published().query("table != '1'")
+    assert len(table[table.family.isin(["successes", "generations", "evolved values"])]) == len(numbers)
+
+
+def row(**values):
+    values = {
+        "family": "successes",
+        "direction": 0,
+        "difference": 0.1,
+        "p_adjusted": 0.5,
+        "p_equivalence": 0.5,
+    } | values
+    return pd.Series(values)
+
+
+@pytest.mark.parametrize(
+    ("values", "verdict"),
+    [
+        ({"p_adjusted": 0.04, "p_equivalence": 0.01}, ledger.NOT_REPRODUCED),
+        ({"p_equivalence": 0.01}, ledger.REPRODUCED),
+        ({}, ledger.UNDECIDED),
+        ({"p_adjusted": np.nan, "p_equivalence": np.nan}, ledger.UNDECIDED),
+        ({"direction": 1, "p_adjusted": 0.01}, ledger.REPRODUCED),
+        ({"direction": 1, "p_adjusted": 0.01, "difference": -0.1}, ledger.NOT_REPRODUCED),
+        ({"direction": 1, "p_equivalence": 0.01}, ledger.UNDECIDED),
+        ({"family": ledger.UNTESTABLE}, ledger.UNTESTABLE),
+    ],
+)
+def test_the_rules_that_lead_to_a_verdict(values, verdict):
+    assert ledger._verdict(row(**values)) == verdict
+
+
+def test_what_stands_out_is_looked_at_again(results, repeats):
+    assert [record.key(experiment) for experiment in ledger.stand_out(results)] == ["maze1 fixed 0"]
+    table = ledger.ledger(results, repeats)
+    second = table.loc["maze1 fixed successes, second look"]
+    assert second.here.endswith(" of 2000")
+    assert second.evidence == "fixed on maze1: 2000 runs, seed 1, 2, 3, 4"
+    assert second.p_adjusted == pytest.approx(10 * second.p_value)
+
+
+def test_a_few_runs_of_one_maze_are_a_ledger_too():
+    few = {
+        safe.Experiment(algorithm, "maze2", 2): pd.DataFrame(
+            {
+                "success": False,
+                "generation": 499,
+                "distance": 9,
+                **dict.fromkeys([*COEFFICIENTS, *WEIGHT_COLUMNS], 0.0),
+            },
+            index=range(2),
+        )
+        for algorithm in ("standard", "novelty", "safe", "random")
+    }
+    table = ledger.ledger(few)
+    assert not table.index.str.contains("maze1|fixed|unevolved").any()
+    words = ledger.readable_ledger(table)
+    assert words.loc["maze2 safe generations", "here"] == "no success"
+    assert words.loc["maze2 p1", ["difference (95 % interval)", "p (Holm)", "p (equivalence)"]].tolist() == ["–"] * 3
+    assert ledger.summary(table).loc["all"].sum() == len(table)
+
+
+def test_other_mazes_and_parameters_bear_on_no_claim():
+    mine = safe.Maze.from_drawing("S.G", name="maze1")
+    ended = pd.DataFrame({"success": [True], "generation": [0], "distance": [0]})
+    others = {
+        safe.Experiment("safe", mine): ended,
+        safe.Experiment("safe", "maze2", parameters=safe.Parameters(k=3)): ended,
+    }
+    assert set(ledger.ledger(others).verdict) == {ledger.UNTESTABLE}
