@@ -9,6 +9,7 @@ A copy is written under another name and renamed when it is complete, so an inte
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import sys
 import time
@@ -57,6 +58,14 @@ def is_progress_bar(output: nbformat.NotebookNode) -> bool:
     return output.get("name") == "stderr" and ("\r" in output.text or not output.text.strip())
 
 
+def _value(text: str) -> object:
+    """A parameter's value as papermill would read it: a number where it is one."""
+    for number in (int, float):
+        with contextlib.suppress(ValueError):
+            return number(text)
+    return text
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description="Execute the notebooks of the book where they are stale.")
     parser.add_argument("names", nargs="*", metavar="notebook", help="name without folder and ending; default: all")
@@ -68,7 +77,7 @@ def main() -> None:
             if not notebook.exists():
                 known = ", ".join(path.stem for path in notebooks())
                 raise ValueError(f"notebook must be one of {known}; was {notebook.stem!r}")
-        given = {name: int(value) if value.isdecimal() else value for name, value in options.p}
+        given = {name: _value(text) for name, text in options.p}
         known = {name for notebook in chosen for name in papermill.inspect_notebook(notebook)}
         if unknown := given.keys() - known:
             raise ValueError(f"parameter must be one of {', '.join(sorted(known))}; was {', '.join(sorted(unknown))}")

@@ -66,19 +66,18 @@ def what_is_wrong(notebook: Path, requested: dict[str, object]) -> str | None:
     return None
 
 
-def collect_numbers() -> dict[str, object]:
-    """What notebooks hand on to the prose of the book: the JSON shown by their cells tagged `numbers`.
-
-    Rows of results become names such as `successes_maze1_safe`.
-    """
+def collect_numbers() -> dict[str, int | float | str]:
+    """What notebooks hand on to the prose of the book: the JSON shown by their cells tagged `numbers`."""
     numbers = {}
     for notebook in notebooks():
         for cell in json.loads((EXECUTED / notebook.name).read_text(encoding="utf-8"))["cells"]:
             if "numbers" in cell["metadata"].get("tags", []):
-                for row in cell["outputs"][0]["data"]["application/json"]:
-                    where = f"{row.pop('maze')}_{row.pop('algorithm')}"
-                    numbers |= {f"{name}_{where}": value for name, value in row.items()}
-    return numbers
+                for output in cell["outputs"]:
+                    found = output["data"]["application/json"]
+                    if twice := numbers.keys() & found.keys():
+                        raise ExtensionError(f"{notebook.name} hands on again: {', '.join(sorted(twice))}")
+                    numbers |= found
+    return {name: "–" if value is None else value for name, value in numbers.items()}
 
 
 def _check_and_collect(app: Sphinx, config) -> None:
@@ -86,9 +85,7 @@ def _check_and_collect(app: Sphinx, config) -> None:
     wrong = [f"{notebook.name} {fault}" for notebook in notebooks() if (fault := what_is_wrong(notebook, requested))]
     if wrong:
         raise ExtensionError("the book needs its notebooks executed (make execute): " + "; ".join(wrong))
-    config.myst_substitutions = {
-        name: f"{value:g}" if isinstance(value, float) else str(value) for name, value in collect_numbers().items()
-    }
+    config.myst_substitutions = collect_numbers()
 
 
 def _swap_in(app: Sphinx, docname: str, source: list[str]) -> None:
@@ -96,7 +93,11 @@ def _swap_in(app: Sphinx, docname: str, source: list[str]) -> None:
     if path.suffix == ".ipynb" and path.parent == NOTEBOOKS:
         copy = EXECUTED / path.name
         app.env.note_dependency(str(copy))
-        source[0] = copy.read_text(encoding="utf-8")
+        notebook = json.loads(copy.read_text(encoding="utf-8"))
+        for cell in notebook["cells"]:
+            for output in cell.get("outputs", []):
+                output.get("data", {}).pop("text/csv", None)  # for book/tables.py alone
+        source[0] = json.dumps(notebook)
 
 
 def _remove_thebe(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:

@@ -13,12 +13,14 @@ Cohen's d, the difference in standard deviations.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 from scipy import stats
 from statsmodels.duration.survfunc import SurvfuncRight, survdiff
+from statsmodels.stats.multitest import multipletests
 from statsmodels.stats.power import NormalIndPower
 from statsmodels.stats.proportion import confint_proportions_2indep, proportion_effectsize
 
@@ -110,6 +112,21 @@ def compare_means(mean: float, sd: float, n: int, other_mean: float, other_sd: f
     )
 
 
+def holm(p_values: pd.Series) -> pd.Series:
+    """Values of p corrected for each other (Holm 1979); what is not a number stays so, and does not count.
+
+    Examples
+    --------
+    >>> holm(pd.Series([0.01, 0.04, float("nan"), 0.03])).tolist()
+    [0.03, 0.06, nan, 0.06]
+    """
+    adjusted = p_values.copy()
+    known = p_values.notna()
+    if known.any():
+        adjusted[known] = multipletests(p_values[known], method="holm")[1]
+    return adjusted
+
+
 def runs_to_tell(rate: float, other_rate: float, power: float = 0.8) -> int:
     """How many runs of each it takes to detect the difference of two rates, with this probability.
 
@@ -163,3 +180,28 @@ def compare_times(runs: pd.DataFrame, other: pd.DataFrame) -> tuple[float, float
     which = np.repeat([0, 1], [len(runs), len(other)])
     _, p_value = survdiff(both.generation, both.success.astype(int), which)
     return 1 - float(later), float(p_value)
+
+
+def times_table(results: Mapping[tuple[str, str], pd.DataFrame], pairs: Sequence[tuple[str, str]]) -> pd.DataFrame:
+    """Pairs of algorithms compared by their generations to success, on each maze; to read.
+
+    Parameters
+    ----------
+    results : mapping of (maze, algorithm) to DataFrame
+        Runs, with columns success and generation.
+    pairs : sequence of (algorithm, algorithm)
+
+    Returns
+    -------
+    pandas.DataFrame, one row for each maze and pair
+        A12; p of the log-rank test; p corrected by Holm's method for all rows.
+    """
+    found = {
+        (maze, *pair): compare_times(*(results[maze, algorithm] for algorithm in pair))
+        for maze in dict.fromkeys(maze for maze, _ in results)
+        for pair in pairs
+    }
+    table = pd.DataFrame.from_dict(found, orient="index", columns=["A12", "p"])
+    table.index = pd.MultiIndex.from_tuples(found, names=["maze", "first", "second"])
+    table["p (Holm)"] = holm(table.p)
+    return table.map(lambda value: "–" if math.isnan(value) else f"{value:.2f}")

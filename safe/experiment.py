@@ -13,7 +13,7 @@ import json
 import os
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
 from functools import cached_property
@@ -172,6 +172,25 @@ def run(
         if missing:
             _compute(experiment, number, missing, results, executor, progress)
         return _table(experiment, results.runs(number, experiment.runs))
+
+
+def run_all(
+    algorithms: Sequence[Algorithm | str],
+    mazes: Sequence[Maze | str],
+    runs: int,
+    seed: int,
+    store: str | os.PathLike | None = None,
+) -> dict[Experiment, pd.DataFrame]:
+    """The results of every algorithm on every maze, maze by maze; arguments and errors are those of Experiment and run.
+
+    Examples
+    --------
+    >>> results = run_all(["random"], ["maze1", "maze2"], runs=1, seed=0)
+    >>> [(experiment.maze.name, len(runs)) for experiment, runs in results.items()]
+    [('maze1', 1), ('maze2', 1)]
+    """
+    experiments = [Experiment(algorithm, maze, runs, seed) for maze in mazes for algorithm in algorithms]
+    return {experiment: run(experiment, store) for experiment in experiments}
 
 
 def _compute(

@@ -7,9 +7,9 @@ import hashlib
 import html
 import io
 import json
-from collections.abc import Sequence
+import string
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from string import Template
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -17,12 +17,14 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
 from safe.evolution import Generation
 from safe.maze import Maze
 
 STYLE = Path(__file__).with_name("figures.mplstyle")
 WALL, START, GOAL, PATH, FAINT = "#404040", "#009E73", "#D55E00", "#0072B2", "#999999"
+TINTS = {"solutions": "#CFE5F2", "objectives": "#F9DEC8", "plain": "#F0F0F0", "won": "#BFE3D5"}
 
 _DIRECTIONS = {"right": (0, 1), "left": (0, -1), "down": (1, 0), "up": (-1, 0)}  # rows down, columns right
 
@@ -164,6 +166,159 @@ def plot_success(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
     return figure, grid[0]
 
 
+def plot_arrivals(curves: Mapping[tuple[str, str], pd.DataFrame], generations: int) -> tuple[Figure, np.ndarray]:
+    """The share of runs that have succeeded, generation by generation, with 95 % bands.
+
+    Parameters
+    ----------
+    curves : mapping of (maze, algorithm) to DataFrame
+        Curves of `comparison.arrivals`.
+    generations : int
+        How many a run has at the most.
+
+    Returns the figure and its axes, an array with one for each maze.
+    """
+    mazes = list(dict.fromkeys(maze for maze, _ in curves))
+    figure, grid = plt.subplots(1, len(mazes), figsize=(4.4 * len(mazes), 3.6), squeeze=False)
+    for axes, maze in zip(grid[0], mazes, strict=True):
+        for (of_maze, algorithm), curve in curves.items():
+            if of_maze == maze:
+                steps = [0, *curve.generation, generations]
+                share, low, high = ([0, *curve[name], [0, *curve[name]][-1]] for name in ("share", "low", "high"))
+                axes.step(steps, 100 * np.array(share), where="post", label=algorithm)
+                axes.fill_between(steps, 100 * np.array(low), 100 * np.array(high), step="post", alpha=0.2)
+        axes.set(title=maze, xlabel="generation", ylabel="runs that have succeeded, %", ylim=(0, None))
+        axes.set_xlim(0, generations)
+    handles, labels = grid[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+    return figure, grid[0]
+
+
+def plot_coefficients(samples: Mapping[str, pd.DataFrame], table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
+    """The objective functions of successful runs, as points (a, b), and the paper's mean and standard deviation.
+
+    Parameters
+    ----------
+    samples : mapping of a maze's name to DataFrame
+        Successful runs, with columns a and b.
+    table : DataFrame
+        Of `statistics.evolved_table`, with the items a and b.
+
+    Returns the figure and its axes, an array with one for each maze.
+    """
+    figure, grid = plt.subplots(1, len(samples), figsize=(4.2 * len(samples), 4.4), squeeze=False)
+    for axes, (maze, runs) in zip(grid[0], samples.items(), strict=True):
+        axes.plot(runs.a, runs.b, ".", alpha=0.6, label="a successful run")
+        paper = table.loc[maze].droplevel("weighs")[["paper_mean", "paper_sd"]]
+        (a, a_sd), (b, b_sd) = paper.loc[["a", "b"]].to_numpy()
+        axes.errorbar(a, b, xerr=a_sd, yerr=b_sd, fmt="x", capsize=4, color=GOAL, label="in the paper, mean and sd")
+        axes.set(title=maze, xlabel="a (closeness)", ylabel="b (novelty)", xlim=(-0.02, 1.05))
+    handles, labels = grid[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+    return figure, grid[0]
+
+
+def plot_weights(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
+    """The evolved weights of controllers, mean and standard deviation, beside the paper's.
+
+    The table is one of `statistics.evolved_table`. Returns the figure and its axes, an array with one for each maze.
+    """
+    mazes = table.index.unique("maze")
+    figure, grid = plt.subplots(1, len(mazes), figsize=(4.4 * len(mazes), 6), squeeze=False, sharey=True)
+    for axes, maze in zip(grid[0], mazes, strict=True):
+        rows = table.loc[maze][::-1]
+        places = np.arange(len(rows))
+        for mean, sd, marker, lift, label in (
+            (rows["mean"], rows.sd, "o", 0.15, "here, mean and sd"),
+            (rows.paper_mean, rows.paper_sd, "x", -0.15, "in the paper"),
+        ):
+            axes.errorbar(mean, places + lift, xerr=sd, fmt=marker, capsize=2, linewidth=1, label=label)
+        axes.axvline(0, color=FAINT, linewidth=0.8, zorder=0)
+        labels = [f"{item}: {weighs}" for item, weighs in rows.index]
+        axes.set(title=maze, xlabel="weight", yticks=places, yticklabels=labels, xlim=(-1.3, 1.3))
+    handles, labels = grid[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+    return figure, grid[0]
+
+
+def plot_neighbours(points: np.ndarray, neighbours: Sequence[Sequence[int]]) -> tuple[Figure, Axes]:
+    """Points (row, column), shape (n, 2), lettered from A, each joined with its neighbours along rows and columns."""
+    points = np.asarray(points)
+    figure, axes = plt.subplots(figsize=(5, 4))
+    for (row, column), near in zip(points, neighbours, strict=True):
+        for other_row, other_column in points[list(near)]:
+            axes.plot([column, other_column, other_column], [row, row, other_row], color=FAINT, linewidth=1, zorder=1)
+    axes.plot(points[:, 1], points[:, 0], "o", markersize=16, color=PATH, zorder=2)
+    for letter, (row, column) in zip(string.ascii_uppercase, points, strict=False):
+        axes.text(column, row, letter, color="white", ha="center", va="center", fontsize="small", zorder=3)
+    low, high = points.min(axis=0) - 1, points.max(axis=0) + 1
+    axes.set(xlim=(low[1], high[1]), ylim=(high[0], low[0]), aspect="equal", xlabel="column", ylabel="row")
+    axes.grid(alpha=0.3)
+    return figure, axes
+
+
+def plot_judging(generations: Mapping[str, Generation]) -> tuple[Figure, np.ndarray]:
+    """One generation of several algorithms, as tables: who judges whom, what decides, what is bred.
+
+    A row is a solution, a column an objective function, a cell the score that it gives; the best score in a row, the
+    fitness, is marked. Meant for a few solutions and objective functions, as all numbers are written out.
+
+    Returns the figure and its axes, an array with one for each algorithm.
+    """
+    widths = [len(generation.objectives) + 5.5 for generation in generations.values()]
+    rows = max(len(generation.genomes) for generation in generations.values())
+    figure, grid = plt.subplots(
+        1, len(widths), figsize=(0.72 * sum(widths), 0.72 * (rows + 4.8)), width_ratios=widths, squeeze=False
+    )
+    for axes, width, (title, generation) in zip(grid[0], widths, generations.items(), strict=True):
+        _draw_judging(axes, generation)
+        axes.set(title=title, xlim=(-2.7, width - 2.7), ylim=(rows - 0.4, -4.7), aspect="equal")
+        axes.set_axis_off()
+    return figure, grid[0]
+
+
+def _draw_judging(axes: Axes, generation: Generation) -> None:
+    n, m = len(generation.genomes), len(generation.objectives)
+    closeness = [1 / distance if distance else 2.0 for distance in generation.distances]
+    novelty = np.zeros(n) if generation.novelty is None else generation.novelty
+
+    def box(x: float, y: float, text: str, kind: str, width: float = 1, height: float = 1, **style: str) -> None:
+        corner = x - width / 2, y - height / 2
+        axes.add_patch(Rectangle(corner, width, height, facecolor=TINTS[kind], edgecolor="white", linewidth=2))
+        axes.text(x, y, text, ha="center", va="center", fontsize=8, **style)
+
+    def arrow(start: tuple[float, float], end: tuple[float, float]) -> None:
+        axes.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": WALL, "shrinkA": 0, "shrinkB": 0})
+
+    for i in range(n):
+        text = f"$S_{{{i + 1}}}$:  1/distance {closeness[i]:.3f}"
+        if generation.novelty is not None:
+            text += f"\n       novelty {novelty[i]:.2f}"
+        box(-1.6, i, text, "solutions", width=2.2)
+        for j, weights in enumerate(generation.objectives):
+            won = generation.winners[i] == j
+            score = weights @ [closeness[i], novelty[i]]
+            box(j, i, f"{score:.3f}", "won" if won else "plain", fontweight="bold" if won else "normal")
+        arrow((m - 0.45, i), (m - 0.05, i))
+        box(m + 0.5, i, f"{generation.fitness[i]:.3f}", "won", fontweight="bold")
+        arrow((m + 1.05, i), (m + 1.45, i))
+    axes.text(m + 0.5, -1.1, "fitness:\nthe best\nscore", ha="center", va="center", fontsize=8)
+    box(m + 2.1, (n - 1) / 2, "selection,\ncrossover,\nmutation:\nnext\nsolutions", "solutions", 1.2, n)
+    middle = (m - 1) / 2
+    for j, (a, b) in enumerate(generation.objectives):
+        box(j, -1.1, f"$O_{{{j + 1}}}$\na = {a:.2f}\nb = {b:.2f}", "objectives")
+        if generation.objective_fitness is not None:
+            arrow((j, -1.65), (j, -2.05))
+            box(j, -2.6, f"{generation.objective_fitness[j]:.3f}", "objectives", fontweight="bold")
+            arrow((j, -3.15), (j, -3.55))
+    if generation.objective_fitness is None:
+        axes.text(middle, -2.6, "The objective function\nstays as it is.", ha="center", va="center", fontsize=8)
+    else:
+        axes.text(-0.65, -2.6, "fitness:\nnovelty among\nobjective functions", ha="right", va="center", fontsize=8)
+        text = "selection, crossover, mutation:\nnext objective functions"
+        box(middle, -4.1, text, "objectives", width=m)
+
+
 def plot_progress(story: Sequence[Generation]) -> tuple[Figure, np.ndarray]:
     """How a run went: distances to the goal and, where it counts, novelty, by generation.
 
@@ -229,7 +384,7 @@ def animate(maze: Maze, story: Sequence[Generation], frames: int = 30) -> str:
         plt.close(figure)
     last = story[-1]
     text = f"End points over {maze.name}, from generation 0 to {last.generation}, {last.distance} cells from the goal."
-    return Template(Path(__file__).with_name("player.html").read_text(encoding="utf-8")).substitute(
+    return string.Template(Path(__file__).with_name("player.html").read_text(encoding="utf-8")).substitute(
         id="player-" + hashlib.sha256("".join(images).encode()).hexdigest()[:12],
         text=html.escape(text, quote=True),
         last=len(images) - 1,

@@ -25,10 +25,9 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 from scipy import stats
-from statsmodels.stats.multitest import multipletests
 
 from safe.algorithms import ALGORITHMS, COEFFICIENTS, Algorithm, Parameters
-from safe.comparison import ALPHA, compare_rates, success_interval
+from safe.comparison import ALPHA, compare_rates, holm, success_interval
 from safe.experiment import WEIGHT_COLUMNS, Experiment, controller_of
 from safe.maze import load_maze, maze_names, ways_to_goal
 from safe.robot import endpoints
@@ -105,7 +104,7 @@ def ledger(results: Results, repeats: Results = {}) -> pd.DataFrame:  # noqa: B0
             *entries,
         ]
     table = pd.DataFrame(entries).set_index("claim")
-    table["p_adjusted"] = table.groupby("family").p_value.transform(_holm)
+    table["p_adjusted"] = table.groupby("family").p_value.transform(holm)
     table = pd.concat([table, _second_look(table, results, repeats)]).rename_axis("claim")
     table["verdict"] = [_verdict(row) for _, row in table.iterrows()]
     return table
@@ -121,10 +120,10 @@ def stand_out(results: Results) -> list[Experiment]:
 
 
 def readable_ledger(table: pd.DataFrame) -> pd.DataFrame:
-    """A ledger to read: in words, and in the order of VERDICTS within each family."""
-    return pd.DataFrame(
+    """A ledger to read, a dash for what is not there; differences of rates are in percentage points."""
+    words = pd.DataFrame(
         {
-            "claim": table.statement,
+            "verdict": table.verdict,
             "in the paper": table.paper,
             "here": table.here,
             "difference (95 % interval)": [_difference(row) for _, row in table.iterrows()],
@@ -133,9 +132,10 @@ def readable_ledger(table: pd.DataFrame) -> pd.DataFrame:
                 _p(p) if direction == 0 else "–"
                 for p, direction in zip(table.p_equivalence, table.direction, strict=True)
             ],
-            "verdict": table.verdict,
+            "experiments": table.evidence,
         }
     )
+    return words.set_index(table.statement.rename("claim"))
 
 
 def summary(table: pd.DataFrame) -> pd.DataFrame:
@@ -174,15 +174,6 @@ def _verdict(row: pd.Series) -> str:
     return REPRODUCED if row.difference * row.direction > 0 else NOT_REPRODUCED
 
 
-def _holm(p_values: pd.Series) -> pd.Series:
-    """Corrected for each other; what is not a number is not counted."""
-    adjusted = p_values.copy()
-    known = p_values.notna()
-    if known.any():
-        adjusted[known] = multipletests(p_values[known], method="holm")[1]
-    return adjusted
-
-
 def _successes(results: Results) -> Iterator[Entry]:
     """The paper's counts of successes."""
     table = success_table(results)
@@ -190,7 +181,7 @@ def _successes(results: Results) -> Iterator[Entry]:
         yield Entry(
             claim=f"{maze} {algorithm} successes",
             source="Table 2" if algorithm != "fixed" else "text",
-            statement=f"{_capital(_NAMES[algorithm])} on {maze}: runs that succeed",
+            statement=f"{_capital(_NAMES[algorithm])} on {maze}",
             family="successes",
             paper=f"{row.paper_successes:.0f} of {row.paper_runs:.0f}",
             here=f"{row.successes:.0f} of {row.runs:.0f}",
@@ -213,7 +204,7 @@ def _generations(results: Results) -> Iterator[Entry]:
             row,
             claim=f"{maze} {algorithm} generations",
             source="Table 2",
-            statement=f"{_capital(_NAMES[algorithm])} on {maze}: generations to success, mean (sd)",
+            statement=f"{_capital(_NAMES[algorithm])} on {maze}",
             family="generations",
             evidence=_evidence(results, maze, algorithm),
             digits=0,
@@ -231,7 +222,7 @@ def _evolved(results: Results) -> Iterator[Entry]:
             row,
             claim=f"{maze} {item}",
             source="text" if item in COEFFICIENTS else "Table 3",
-            statement=f"{item} of successful runs on {maze} (weight of {weighs}), mean (sd)",
+            statement=f"{item} on {maze}, the weight of {weighs}",
             family="evolved values",
             evidence=_evidence(results, maze, "safe"),
             digits=2,
@@ -267,7 +258,7 @@ def _directions(results: Results, named: Mapping) -> Iterator[Entry]:
     for first, second, statement in pairs:
         yield from _pair(results, named, first, second, "Table 2", statement, direction=1)
     for maze in ("maze1", "maze2"):
-        statement = f"That SAFE's objective functions evolve lets it succeed more often on {maze} than if they did not"
+        statement = f"SAFE succeeds more often on {maze} because its objective functions evolve"
         yield from _pair(results, named, (maze, "safe"), (maze, "unevolved"), "abstract", statement, direction=1)
 
 
@@ -318,8 +309,8 @@ def _deceptions(results: Results) -> Iterator[Entry]:
                 len(runs),
                 claim=f"{maze.name} deceived",
                 source="Figure 2",
-                statement=f"The standard algorithm is deceived on {maze.name}: from where its best robot ends, the way "
-                "to the goal is more than twice the distance, in most runs",
+                statement=f"In most runs the standard algorithm is deceived on {maze.name}: from where its best robot "
+                "ends, the way to the goal is more than twice the distance",
                 evidence=_evidence(results, maze.name, "standard"),
             )
 
@@ -335,7 +326,7 @@ def _weighings(results: Results) -> Iterator[Entry]:
                 len(successful),
                 claim=f"{maze} b > a",
                 source="text",
-                statement=f"Objective functions that succeed on {maze} weigh novelty more than closeness, in most runs",
+                statement=f"In most successful runs on {maze} the objective function weighs novelty more",
                 evidence=_evidence(results, maze, "safe"),
             )
 
@@ -386,7 +377,7 @@ def _second_look(table: pd.DataFrame, results: Results, repeats: Results) -> pd.
         comparison = compare_rates(successes, n, int(count), int(of))
         rows[f"{maze} {algorithm} successes, second look"] = {
             **first,
-            "statement": f"{first.statement}; a second look, with further seeds",
+            "statement": f"{first.statement}, a second look",
             "here": f"{successes} of {n}",
             "evidence": f"{_runs_of(maze, algorithm, n, *(experiment.seed for experiment, _ in parts))}",
             **asdict(comparison),
@@ -416,8 +407,7 @@ def _difference(row: pd.Series) -> str:
     form = {"generations": "{:+.0f}", "evolved values": "{:+.3f}"}.get(row.family)
     if form is None:
         values, form = 100 * values, "{:+.1f}"
-    text = f"{form} ({form} to {form})".format(*values)
-    return text if row.family in ("generations", "evolved values") else f"{text} points"
+    return f"{form} ({form} to {form})".format(*values)
 
 
 def _p(value: float) -> str:

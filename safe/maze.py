@@ -217,6 +217,19 @@ def load_maze(name_or_path: str | Path | Maze) -> Maze:
     return parse_maze(text, name=path.stem)
 
 
+def load_mazes(names: str) -> list[Maze]:
+    """Mazes by their names or paths, separated by blanks.
+
+    Examples
+    --------
+    >>> [maze.goal for maze in load_mazes("maze1 maze2")]
+    [(41, 15), (31, 32)]
+    """
+    if not isinstance(names, str) or not names.strip():
+        raise ValueError(f"maze must be one or more mazes, separated by blanks; was {checks.shown(names)}")
+    return [load_maze(name) for name in names.split()]
+
+
 def ways_to_goal(maze: Maze) -> np.ndarray:
     """How many cells it is to the goal on the shortest way through open cells, moving along rows and columns.
 

@@ -132,8 +132,13 @@ def test_a_few_runs_of_one_maze_are_a_ledger_too():
     table = ledger.ledger(few)
     assert not table.index.str.contains("maze1|fixed|unevolved").any()
     words = ledger.readable_ledger(table)
-    assert words.loc["maze2 safe generations", "here"] == "no success"
-    assert words.loc["maze2 p1", ["difference (95 % interval)", "p (Holm)", "p (equivalence)"]].tolist() == ["–"] * 3
+    assert words[table.index == "maze2 safe generations"].here.item() == "no success"
+    assert (
+        words.loc[
+            "p1 on maze2, the weight of dist_right in h", ["difference (95 % interval)", "p (Holm)", "p (equivalence)"]
+        ].tolist()
+        == ["–"] * 3
+    )
     assert ledger.summary(table).loc["all"].sum() == len(table)
 
 

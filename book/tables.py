@@ -1,0 +1,77 @@
+"""Tables of results as tables of the book: captioned, numbered, and to be downloaded as CSV.
+
+A cell of a notebook whose metadata holds `table: {name, caption, stub, class}` shows one table, which carries itself
+along as CSV. Here that CSV becomes a table of the document, with as many columns of headings as `stub` says (1), and
+with a class for its looks beside `results`. It can be referred to by its name, and is a table in print as well. Nothing
+in it is read as markup.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+
+from docutils import nodes
+from sphinx import addnodes
+from sphinx.application import Sphinx
+from sphinx.errors import ExtensionError
+from sphinx.transforms import SphinxTransform
+from sphinx.util.typing import ExtensionMetadata
+
+from executed import EXECUTED, ROOT
+
+TABLES = EXECUTED / "tables"
+
+
+class ResultTables(SphinxTransform):
+    default_priority = 400  # before labels are collected
+
+    def apply(self, **kwargs: object) -> None:
+        cells = [
+            cell
+            for cell in self.document.findall(nodes.container)
+            if cell.get("nb_element") == "cell_code" and "table" in cell["cell_metadata"]
+        ]
+        for cell in cells:
+            (output,) = (part for part in cell.children if part.get("nb_element") == "cell_code_output")
+            output.children = []
+            output += self.table(self.csv(cell["cell_index"]), cell["cell_metadata"]["table"])
+
+    def table(self, text: str, settings: dict) -> list[nodes.Node]:
+        name, stub = settings["name"], settings.get("stub", 1)
+        header, *rows = csv.reader(text.splitlines())
+        group = nodes.tgroup(
+            "",
+            *(nodes.colspec(colwidth=1, stub=int(column < stub)) for column in range(len(header))),
+            nodes.thead("", _row(header)),
+            nodes.tbody("", *map(_row, rows)),
+            cols=len(header),
+        )
+        table = nodes.table("", nodes.title("", settings["caption"]), group, names=[name])
+        table["classes"] = ["results", *settings.get("class", "").split()]
+        self.document.note_explicit_target(table)
+        TABLES.mkdir(exist_ok=True)
+        file = TABLES / f"{name}.csv"
+        file.write_text(text, encoding="utf-8")
+        link = addnodes.download_reference(
+            "", nodes.Text("this table as CSV"), reftarget=f"/{file.relative_to(ROOT)}", refdoc=self.env.docname
+        )
+        return [table, nodes.paragraph("", "", link, classes=["results-download"])]
+
+    def csv(self, index: int) -> str:
+        """What the cell showed."""
+        copy = EXECUTED / f"{self.env.docname.rsplit('/', 1)[-1]}.ipynb"
+        outputs = json.loads(copy.read_text(encoding="utf-8"))["cells"][index]["outputs"]
+        found = [output["data"]["text/csv"] for output in outputs if "text/csv" in output.get("data", {})]
+        if len(found) != 1:
+            raise ExtensionError(f"cell {index} of {copy.name} must show one table; showed {len(found)}")
+        return "".join(found[0])
+
+
+def _row(texts: list[str]) -> nodes.row:
+    return nodes.row("", *(nodes.entry("", nodes.paragraph("", text)) for text in texts))
+
+
+def setup(app: Sphinx) -> ExtensionMetadata:
+    app.add_transform(ResultTables)
+    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,60 @@
+"""What the notebooks of the book ask of Jupyter: the looks of figures, tables to take along, numbers for the prose."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pandas as pd
+from IPython import get_ipython
+from IPython.display import display
+
+from safe import checks, figures
+
+
+def prepare() -> None:
+    """Give figures the style of the book, and let every table carry itself along as CSV, for the book to offer."""
+    figures.use_style()
+    formatter = get_ipython().display_formatter.mimebundle_formatter
+    formatter.for_type(pd.DataFrame, lambda table, **_: {"text/csv": table.to_csv()})
+
+
+def hand_on(table: pd.DataFrame) -> None:
+    """Hand the numbers of a table on to the prose of the book, as `column_index`: successes_maze1_safe."""
+    numbers = {
+        "_".join([column, *map(str, index if isinstance(index, tuple) else [index])]): value
+        for column, values in json.loads(table.reset_index(drop=True).to_json()).items()
+        for index, value in zip(table.index, values.values(), strict=True)
+    }
+    display({"application/json": numbers, "text/plain": f"{len(numbers)} numbers"}, raw=True)
+
+
+def show_page(page: str, instead: str) -> None:
+    """Show HTML, and a text where there is none, as in print."""
+    display({"text/html": page, "text/plain": instead}, raw=True)
+
+
+def read_points(text: str) -> np.ndarray:
+    """Points written as `row,column`, separated by blanks.
+
+    Returns
+    -------
+    array of int, shape (n, 2)
+
+    Raises
+    ------
+    ValueError
+        Where there are fewer than two, or one is not two integers.
+
+    Examples
+    --------
+    >>> read_points("0,0 2,1").tolist()
+    [[0, 0], [2, 1]]
+    """
+    try:
+        points = [(int(row), int(column)) for row, column in (point.split(",") for point in text.split())]
+    except (AttributeError, ValueError):
+        points = []
+    if len(points) < 2:
+        raise ValueError(f"points must be two or more of row,column, separated by blanks; was {checks.shown(text)}")
+    return np.array(points)
