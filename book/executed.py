@@ -66,8 +66,11 @@ def what_is_wrong(notebook: Path, requested: dict[str, object]) -> str | None:
     return None
 
 
-def collect_numbers() -> dict[str, int | float | str]:
-    """What notebooks hand on to the prose of the book: the JSON shown by their cells tagged `numbers`."""
+def collect_numbers() -> dict[str, str]:
+    """What notebooks hand on to the prose of the book: the JSON shown by their cells tagged `numbers`.
+
+    Fractions are given to three digits; what there is none of is a dash.
+    """
     numbers = {}
     for notebook in notebooks():
         for cell in json.loads((EXECUTED / notebook.name).read_text(encoding="utf-8"))["cells"]:
@@ -76,8 +79,15 @@ def collect_numbers() -> dict[str, int | float | str]:
                     found = output["data"]["application/json"]
                     if twice := numbers.keys() & found.keys():
                         raise ExtensionError(f"{notebook.name} hands on again: {', '.join(sorted(twice))}")
-                    numbers |= found
-    return {name: "–" if value is None else value for name, value in numbers.items()}
+                    numbers |= {name: _in_words(value) for name, value in found.items()}
+    return numbers
+
+
+def _in_words(value: float | str | None) -> str:
+    if value is None:
+        return "–"
+    is_fraction = isinstance(value, float) and not value.is_integer()
+    return f"{value:.3g}" if is_fraction else f"{value:.0f}" if isinstance(value, float) else str(value)
 
 
 def _check_and_collect(app: Sphinx, config) -> None:
@@ -100,17 +110,7 @@ def _swap_in(app: Sphinx, docname: str, source: list[str]) -> None:
         source[0] = json.dumps(notebook)
 
 
-def _remove_thebe(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
-    """Jupyter Book prepares every page to load thebe from a CDN, and declares its address twice; no page uses it."""
-
-    def is_thebe(script) -> bool:
-        return "THEBE_JS_URL" in (script.attributes.get("body") or "") or "sphinx-thebe" in (script.filename or "")
-
-    context["script_files"] = [script for script in context.get("script_files", []) if not is_thebe(script)]
-
-
 def setup(app: Sphinx) -> ExtensionMetadata:
     app.connect("config-inited", _check_and_collect)
     app.connect("source-read", _swap_in)
-    app.connect("html-page-context", _remove_thebe, priority=900)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,4 +1,4 @@
-"""Draw book/_static/robot-path.svg, the picture of the README and of the book's first page: make picture."""
+"""Draw book/_static/robot-path, the picture of the README and of the book's first page, for print too: make picture."""
 
 from pathlib import Path
 
@@ -16,5 +16,6 @@ if __name__ == "__main__":
     if not run.success:
         raise SystemExit(f"the run with seed {SEED} finds no solution to draw")
     figure, _ = figures.plot_paths([[(maze, safe.path(maze, run.controller), "")]])
-    figure.savefig(Path(__file__).parent / "_static" / "robot-path.svg", metadata={"Date": None})
+    for kind, metadata in (("svg", {"Date": None}), ("pdf", {"CreationDate": None})):
+        figure.savefig(Path(__file__).parent / "_static" / f"robot-path.{kind}", metadata=metadata)
     plt.close(figure)

@@ -2,14 +2,18 @@
 
 There are three kinds of claims, each with a rule fixed beforehand that leads from the runs to the verdict.
 
-A number or a likeness ("328 of 500 runs", "as often as novelty search") is compared with ours.
-    not reproduced   a difference is detected
-    reproduced       an effect as large as `comparison.MARGIN` is ruled out
-    no difference detectable at this size   neither
-A direction ("more often than") is tested against no difference at all.
-    reproduced       a difference in this direction is detected
-    not reproduced   one in the other direction is detected
-    no difference detectable at this size   neither
+A number or a likeness ("328 of 500 runs", "as often as novelty search") is compared with ours:
+
+- not reproduced, where a difference is detected;
+- otherwise reproduced, where an effect as large as `comparison.MARGIN` is ruled out;
+- otherwise no difference detectable at this size.
+
+A direction ("more often than") is tested against no difference at all:
+
+- reproduced, where a difference in this direction is detected;
+- not reproduced, where one in the other direction is;
+- otherwise no difference detectable at this size.
+
 What no run of these experiments can decide is not testable here.
 
 A difference is detected where p, corrected by Holm's method for all claims of its family, is below 0.05. Families are

@@ -1,0 +1,41 @@
+"""What the theme puts on a page: buttons that lead to the repository once there is one, and nothing from a CDN."""
+
+from __future__ import annotations
+
+import re
+
+from sphinx.application import Sphinx
+from sphinx.util.typing import ExtensionMetadata
+
+LAUNCH = {"binderhub_url": "https://mybinder.org", "colab_url": "https://colab.research.google.com"}
+
+
+def _set_buttons(app: Sphinx, config) -> None:
+    """Buttons to open a notebook elsewhere and to edit a page hang on one setting, the repository's address."""
+    options = config.html_theme_options
+    has_repository = bool(options.get("repository_url"))
+    options["use_repository_button"] = options["use_edit_page_button"] = has_repository
+    if has_repository:
+        options["launch_buttons"] = LAUNCH
+
+
+def _remove_thebe(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
+    """Jupyter Book prepares every page to load thebe from a CDN, and declares its address twice; no page uses it."""
+
+    def is_thebe(script) -> bool:
+        return "THEBE_JS_URL" in (script.attributes.get("body") or "") or "sphinx-thebe" in (script.filename or "")
+
+    context["script_files"] = [script for script in context.get("script_files", []) if not is_thebe(script)]
+
+
+def _remove_address(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
+    """While nobody has said where the book will stand (`ogp_site_url`), a page cannot say what its address is."""
+    if not app.config.ogp_site_url and "metatags" in context:
+        context["metatags"] = re.sub(r'<meta property="og:url"[^>]*>\s*', "", context["metatags"])
+
+
+def setup(app: Sphinx) -> ExtensionMetadata:
+    app.connect("config-inited", _set_buttons)
+    app.connect("html-page-context", _remove_thebe, priority=900)
+    app.connect("html-page-context", _remove_address, priority=900)
+    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}
