@@ -16,11 +16,13 @@ from sphinx import addnodes
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 from sphinx.transforms import SphinxTransform
+from sphinx.transforms.post_transforms import SphinxPostTransform
 from sphinx.util.typing import ExtensionMetadata
 
 from executed import EXECUTED, ROOT
 
 TABLES = EXECUTED / "tables"
+WIDEST = 30  # characters of a column that count for its width in print
 
 
 class ResultTables(SphinxTransform):
@@ -68,10 +70,29 @@ class ResultTables(SphinxTransform):
         return "".join(found[0])
 
 
+class PrintedTables(SphinxPostTransform):
+    """In print a table breaks between pages, its columns are as wide as what they hold, and nothing is downloaded."""
+
+    default_priority = 700
+    formats = ("latex",)
+
+    def run(self, **kwargs: object) -> None:
+        for table in self.document.findall(nodes.table):
+            if "results" in table["classes"]:
+                table["classes"] += ["longtable", "colwidths-given"]
+                lines = [[cell.astext() for cell in row.children] for row in table.findall(nodes.row)]
+                for column, spec in enumerate(table.findall(nodes.colspec)):
+                    spec["colwidth"] = 5 + min(max(len(line[column]) for line in lines), WIDEST)
+        for paragraph in list(self.document.findall(nodes.paragraph)):
+            if "results-download" in paragraph["classes"]:
+                paragraph.parent.remove(paragraph)
+
+
 def _row(texts: list[str]) -> nodes.row:
     return nodes.row("", *(nodes.entry("", nodes.paragraph("", text)) for text in texts))
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:
     app.add_transform(ResultTables)
+    app.add_post_transform(PrintedTables)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -170,13 +170,13 @@ def compare_times(runs: pd.DataFrame, other: pd.DataFrame) -> tuple[float, float
     """Generations to success of two experiments: Vargha and Delaney's A12, and p of the log-rank test.
 
     A12 is the probability that a run of the first is quicker than a run of the second, ties counted half; a run that
-    did not succeed is slower than all that did. Not a number where no run succeeded.
+    did not succeed is slower than all that did. Not a number where no run succeeded, or all at the same time.
     """
-    if not (runs.success.any() or other.success.any()):
+    both = pd.concat([runs, other])
+    if not both.success.any() or (both.success.all() and both.generation.min() == both.generation.max()):
         return math.nan, math.nan
     samples = [sample.generation.where(sample.success, np.inf) for sample in (runs, other)]
     later = stats.mannwhitneyu(*samples).statistic / (len(runs) * len(other))
-    both = pd.concat([runs, other])
     which = np.repeat([0, 1], [len(runs), len(other)])
     _, p_value = survdiff(both.generation, both.success.astype(int), which)
     return 1 - float(later), float(p_value)

@@ -15,8 +15,10 @@ from safe import checks, figures
 def prepare() -> None:
     """Give figures the style of the book, and let every table carry itself along as CSV, for the book to offer."""
     figures.use_style()
-    formatter = get_ipython().display_formatter.mimebundle_formatter
-    formatter.for_type(pd.DataFrame, lambda table, **_: {"text/csv": table.to_csv()})
+    shell = get_ipython()
+    if shell is not None:
+        formatter = shell.display_formatter.mimebundle_formatter
+        formatter.for_type(pd.DataFrame, lambda table, **_: {"text/csv": table.to_csv()})
 
 
 def hand_on(table: pd.DataFrame) -> None:

@@ -108,7 +108,9 @@ def test_times_are_compared_with_failures_last():
     assert comparison.compare_times(slow, never)[0] == pytest.approx(0.5 + 0.5 * 2 / 4)
     a12, p_value = comparison.compare_times(slow, slow)
     assert (a12, p_value) == pytest.approx((0.5, 1))
-    assert all(math.isnan(value) for value in comparison.compare_times(never, never))
+    at_once = runs(2, 2, [3, 3])
+    for indistinct in (never, at_once):
+        assert all(math.isnan(value) for value in comparison.compare_times(indistinct, indistinct))
 
 
 def test_the_log_rank_test_of_a_textbook():

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import safe
-from safe import figures, statistics
+from safe import comparison, figures, statistics
+from safe.experiment import WEIGHT_COLUMNS
 from tests.test_statistics import runs
 
 mpl.use("agg")
@@ -112,6 +113,59 @@ def test_rates_of_success_with_the_papers():
     ours, *_, paper = (line for line in axes.get_lines() if len(line.get_xdata()) == 2 and line.get_marker() in "ox")
     assert ours.get_xdata().tolist() == [0, 75]
     assert paper.get_xdata().tolist() == pytest.approx([100 * 9 / 500, 100 * 328 / 500])
+
+
+def test_arrivals_rise_from_nothing_to_the_share_of_successes():
+    curves = {
+        ("maze1", name): comparison.arrivals(runs(n, 4, range(5, 5 + n))) for name, n in (("safe", 2), ("fixed", 0))
+    }
+    _, (axes,) = figures.plot_arrivals(curves, 500)
+    safe_alone, fixed = axes.get_lines()
+    assert safe_alone.get_xydata() == pytest.approx(np.array([[0, 0], [5, 25], [6, 50], [500, 50]]))
+    assert fixed.get_xydata().tolist() == [[0, 0], [500, 0]]
+
+
+def evolved(maze):
+    columns = {"a": [0.5, 1.0], "b": [1.0, 0.9]} | {f"p{i}": [i / 20, i / 16] for i in range(1, 17)}
+    return {safe.Experiment("safe", maze): runs(2, 2, **columns)}
+
+
+def test_coefficients_and_weights_beside_the_papers():
+    results = evolved("maze2")
+    table = statistics.evolved_table(results, ["a", "b"])
+    _, (axes,) = figures.plot_coefficients({"maze2": next(iter(results.values()))}, table)
+    points, paper, *_ = axes.get_lines()
+    assert points.get_xydata().tolist() == [[0.5, 1.0], [1.0, 0.9]]
+    assert paper.get_xydata().tolist() == [[0.83, 0.98]]
+
+    _, (axes,) = figures.plot_weights(statistics.evolved_table(results, WEIGHT_COLUMNS))
+    labels = [label.get_text() for label in axes.get_yticklabels()]
+    assert (labels[0], labels[-1]) == ("p16: goal_up in v", "p1: dist_right in h")
+    ours, paper = (line for line in axes.get_lines() if line.get_marker() in ("o", "x") and len(line.get_xdata()) == 16)
+    assert ours.get_xdata()[-1] == pytest.approx((1 / 20 + 1 / 16) / 2)
+    assert paper.get_xdata()[-1] == -0.27
+
+
+def test_neighbours_are_joined_along_rows_and_columns():
+    _, axes = figures.plot_neighbours([[0, 0], [2, 1], [5, 5]], [[1], [0], [1]])
+    *joins, points = axes.get_lines()
+    assert joins[0].get_xydata().tolist() == [[0, 0], [1, 0], [1, 2]]
+    assert points.get_xydata().tolist() == [[0, 0], [1, 2], [5, 5]]
+    assert [text.get_text() for text in axes.texts] == ["A", "B", "C"]
+    assert axes.yaxis_inverted()
+
+
+def test_who_judges_whom():
+    small = safe.Parameters(population=4, objectives=2, elites=0, generations=1, k=2)
+    judged = {name: next(safe.generations("maze1", name, 1, small)) for name in ("standard", "safe")}
+    _, (standard, coevolving) = figures.plot_judging(judged)
+    for axes, generation in ((standard, judged["standard"]), (coevolving, judged["safe"])):
+        texts = [text.get_text() for text in axes.texts]
+        for fitness in generation.fitness:
+            assert texts.count(f"{fitness:.3f}") >= 2, "the best score, and the fitness"
+    assert "The objective function\nstays as it is." in [text.get_text() for text in standard.texts]
+    novelties = {f"{novelty:.3f}" for novelty in judged["safe"].objective_fitness}
+    assert novelties <= {text.get_text() for text in coevolving.texts}
 
 
 def test_the_style_is_one_that_matplotlib_knows():

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 
 from safe import Maze, load_maze
-from safe.maze import SENSORS, maze_names, parse_maze, ways_to_goal
+from safe.maze import SENSORS, load_mazes, maze_names, parse_maze, ways_to_goal
 from tests import oracle
 from tests.conftest import mazes
 
@@ -206,3 +206,17 @@ def test_the_way_to_the_goal_is_one_cell_longer_than_from_the_best_neighbour(maz
     nearest = np.where(beside < 0, ways.size, beside).min(axis=0)
     assert (nearest[ways > 0] + 1 == ways[ways > 0]).all()
     assert (beside.max(axis=0)[(ways < 0) & ~maze.walls] < 0).all()  # what is cut off has no neighbour that is not
+
+
+@pytest.mark.parametrize("names", ["", "  ", None, 3])
+def test_no_mazes_at_all(names):
+    with pytest.raises(ValueError, match="maze must be one or more mazes, separated by blanks; was"):
+        load_mazes(names)
+
+
+def test_equal_mazes_are_one_key():
+    drawing = "S.G"
+    one, other = Maze.from_drawing(drawing, "one"), Maze.from_drawing(drawing, "other")
+    assert one == other
+    assert len({one, other, Maze.from_drawing("G.S")}) == 2
+    assert one != drawing

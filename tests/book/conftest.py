@@ -27,7 +27,7 @@ def build(folder, **options):
     return call(folder, command, "build", ".", "--toc", "book/_toc.yml", "-W", "--keep-going", "-n", **options)
 
 
-def output(process):
+def output_of(process):
     return process.stdout + process.stderr
 
 
@@ -41,7 +41,7 @@ def checkout(tmp_path_factory):
         else:
             shutil.copy(ROOT / part, folder)
     executed = execute(folder)
-    assert executed.returncode == 0, output(executed)
+    assert executed.returncode == 0, output_of(executed)
     built = build(folder)
-    assert built.returncode == 0, output(built)
+    assert built.returncode == 0, output_of(built)
     return folder

@@ -1,18 +1,21 @@
 """The whole pipeline, on a copy of the checkout: notebooks executed at a few runs, the book built from them."""
 
+import csv
 import json
 import re
+import shutil
 from html.parser import HTMLParser
 
 import pytest
 
-from tests.book.conftest import RUNS, build, execute, output
+from tests.book.conftest import RUNS, build, execute, output_of
 
 
 @pytest.fixture
 def pages(checkout):
     html = checkout / "_build" / "html"
-    return {str(page.relative_to(html)): page.read_text() for page in sorted(html.rglob("*.html"))}
+    found = sorted(page for page in html.rglob("*.html") if "_static" not in page.parts)
+    return {str(page.relative_to(html)): page.read_text() for page in found}
 
 
 def test_every_chapter_is_a_page(checkout, pages):
@@ -32,24 +35,119 @@ def test_every_notebook_is_a_chapter(checkout):
         assert f"notebooks/{notebook.stem}" in contents
 
 
-def test_the_pages_show_what_was_computed(checkout, pages):
-    table = pages["notebooks/table2-success.html"]
-    assert f"of {RUNS}</td>" in table
-    assert "322 of 500</td>" in table
-    for notebook in ("figure1-mazes", "figure2-deception", "figure3-sensors", "table2-success", "figure5-solutions"):
-        assert re.search(r'<img [^>]*src="\.\./_images/[0-9a-f]+\.svg"', pages[f"notebooks/{notebook}.html"]), notebook
+def outputs(checkout, name):
+    copy = json.loads((checkout / "executed" / f"{name}.ipynb").read_text())
+    return [(cell, output) for cell in copy["cells"] for output in cell.get("outputs", [])]
+
+
+def test_every_figure_that_was_computed_is_shown(checkout, pages):
+    count = 0
+    for notebook in (checkout / "notebooks").glob("*.ipynb"):
+        drawn = sum("image/svg+xml" in output.get("data", {}) for _, output in outputs(checkout, notebook.stem))
+        shown = re.findall(r'<img [^>]*src="../_images/[0-9a-f]+.svg"', pages[f"notebooks/{notebook.stem}.html"])
+        assert len(shown) == drawn, notebook.stem
+        count += drawn
+    assert count > 10
+
+
+class Tables(HTMLParser):
+    """The captions and cells of the tables of a page."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.found, self.inside = [], None
+        self.feed(page)
+
+    def handle_starttag(self, tag, attributes):
+        if tag == "table":
+            self.found.append({"id": dict(attributes).get("id"), "caption": "", "rows": []})
+        elif tag == "tr":
+            self.found[-1]["rows"].append([])
+        elif tag in ("th", "td"):
+            self.found[-1]["rows"][-1].append("")
+        self.inside = tag if tag in ("caption", "th", "td") else None if tag == "a" else self.inside
+
+    def handle_endtag(self, tag):
+        self.inside = None if tag in ("caption", "th", "td") else self.inside
+
+    def handle_data(self, data):
+        if self.inside == "caption":
+            self.found[-1]["caption"] += data
+        elif self.inside:
+            self.found[-1]["rows"][-1][-1] += data
+
+
+def test_every_table_that_was_computed_is_shown_with_number_and_caption_and_can_be_downloaded(checkout, pages):
+    html = checkout / "_build" / "html"
+    count = 0
+    for notebook in (checkout / "notebooks").glob("*.ipynb"):
+        page = pages[f"notebooks/{notebook.stem}.html"]
+        shown = {table["id"]: table for table in Tables(page).found}
+        for cell, output in outputs(checkout, notebook.stem):
+            if "text/csv" not in output.get("data", {}):
+                continue
+            settings = cell["metadata"]["table"]
+            expected = list(csv.reader("".join(output["data"]["text/csv"]).splitlines()))
+            table = shown[settings["name"]]
+            number, caption = re.fullmatch(r"Table ([0-9.]+) (.*)", table["caption"]).groups()
+            assert caption.replace("’", "'") == settings["caption"], number
+            assert [[cell.strip() for cell in row] for row in table["rows"]] == expected, settings["name"]
+            (link,) = re.findall(rf'href="../(_downloads/[^"]*/{settings["name"]}.csv)"', page)
+            assert list(csv.reader((html / link).read_text().splitlines())) == expected
+            count += 1
+    assert count > 15
+
+
+def test_no_table_is_shown_as_jupyter_would(pages):
+    for name, page in pages.items():
+        assert 'class="dataframe"' not in page, name
 
 
 def test_numbers_in_prose_are_those_of_the_table(checkout, pages):
-    copy = json.loads((checkout / "executed" / "table2-success.ipynb").read_text())
-    (rows,) = [
-        cell["outputs"][0]["data"]["application/json"]
-        for cell in copy["cells"]
-        if "numbers" in cell["metadata"].get("tags", [])
+    (numbers,) = [
+        output["data"]["application/json"]
+        for _, output in outputs(checkout, "table2-success")
+        if "successes_maze1_safe" in output.get("data", {}).get("application/json", {})
     ]
-    (successes,) = [row["successes"] for row in rows if (row["maze"], row["algorithm"]) == ("maze1", "safe")]
     prose = re.sub(r"\s+", " ", re.sub(r"<[^>]+>", "", pages["book/index.html"]))
-    assert f"SAFE succeeds in {successes} of {RUNS} runs" in prose
+    assert f"SAFE succeeds in {numbers['successes_maze1_safe']:.0f} of {RUNS} runs" in prose
+    assert "The paper counts 328, 322 and 0 of 500" in prose
+
+
+def test_no_number_of_the_prose_is_missing(pages):
+    for name, page in pages.items():
+        assert "{{" not in re.sub(r"<(script|pre).*?</\1>", "", page, flags=re.DOTALL), name
+
+
+def test_every_page_tells_what_it_is(pages):
+    titles = set()
+    for name, page in pages.items():
+        title = re.search(r"<title>\s*(.*?)\s*</title>", page, re.DOTALL).group(1)
+        assert title not in titles, name
+        titles.add(title)
+        if name.startswith(("book/", "notebooks/")):
+            assert re.search(r'<meta name="description" content="[^"]{40,}"', page), name
+            assert re.search(r'<meta property="og:title" content="[^"]+"', page), name
+
+
+def test_without_an_address_of_the_repository_no_page_links_to_one(pages):
+    for name, page in pages.items():
+        assert not re.search("mybinder|colab|/edit/", page), name
+
+
+def test_with_an_address_there_are_buttons(checkout, tmp_path):
+    folder = tmp_path / "with address"
+    shutil.copytree(checkout, folder, ignore=shutil.ignore_patterns("_build"))
+    config = folder / "_config.yml"
+    config.write_text(config.read_text().replace('url: ""', 'url: "https://github.com/someone/something"'))
+    built = build(folder)
+    assert built.returncode == 0, output_of(built)
+    html = folder / "_build" / "html"
+    notebook, page = ((html / name).read_text() for name in ("notebooks/ledger.html", "book/safe.html"))
+    assert "https://mybinder.org/v2/gh/someone/something/main?urlpath=tree/notebooks/ledger.ipynb" in notebook
+    assert "https://colab.research.google.com/github/someone/something/blob/main/notebooks/ledger.ipynb" in notebook
+    assert "https://github.com/someone/something/edit/main/book/safe.md" in page
+    assert "mybinder" not in page
 
 
 class Loads(HTMLParser):
@@ -124,14 +222,14 @@ def test_stale_copies_are_refused(checkout, change):
         "missing": "was not executed",
         "runs": "was executed before the parameters changed",
     }.get(change, f"was executed before the {change} changed")
-    assert f"table2-success.ipynb {reason}" in re.sub(r"\s+", " ", output(refused))
+    assert f"table2-success.ipynb {reason}" in re.sub(r"\s+", " ", output_of(refused))
 
 
 @pytest.mark.parametrize(
     ("arguments", "runs", "complaint"),
     [
-        (["table2-success", "-p", "run", "5"], RUNS, "parameter must be one of maze, runs, seed, store; was run"),
-        (["table3"], RUNS, "notebook must be one of figure1-mazes, .*; was 'table3'"),
+        (["table2-success", "-p", "run", "5.5"], RUNS, "parameter must be one of maze, runs, seed, store; was run"),
+        (["table3"], RUNS, "notebook must be one of coefficients, .*; was 'table3'"),
         ([], "many", "RUNS must be an integer of at least 1; was 'many'"),
         ([], "0", "RUNS must be an integer of at least 1; was '0'"),
     ],

@@ -1,0 +1,82 @@
+"""The notebooks with other parameters: a bad value of any gives an error that names it, a maze of one's own works."""
+
+import json
+from pathlib import Path
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import papermill
+import pytest
+
+from tests.notebooks.test_notebooks import NOTEBOOKS
+
+mpl.use("agg")
+
+BAD = {  # parameter: value, what the error says
+    "maze": ("maze3", "maze must be one of 'maze1', 'maze2' or the path of a maze file; was 'maze3'"),
+    "runs": (0, "runs must be an integer of at least 1; was 0"),
+    "seed": (-1, "seed must be .*; was -1"),
+    "store": (".", "store must be .*; was"),
+    "run": (-1, "run must be an integer of at least 0; was -1"),
+    "row": (1000, r"cell must be a \(row, column\) within the 100 by 100 cells; was \(1000, 60\)"),
+    "column": ("left", r"cell must be a \(row, column\) within the 100 by 100 cells; was \(37, 'left'\)"),
+    "generation": (-1, "generation must be an integer of at least 0; was -1"),
+    "population": (3, "population must be an even number; was 3"),
+    "objectives": (0, "objectives must be an integer from 1 to 1000000; was 0"),
+    "generations": ("all", "generations must be an integer from 1 to 1000000; was 'all'"),
+    "k": (0, "k must be an integer .*; was 0"),
+    "paths": (0, "paths must be an integer of at least 1; was 0"),
+    "a": ("much", "objectives must be .*"),
+    "b": (float("nan"), "objectives must be .*"),
+    "points": ("0,0 1", "points must be two or more of row,column, separated by blanks; was '0,0 1'"),
+    "algorithm": ("best", "algorithm must be one of 'standard', .*'random'; was 'best'"),
+    "repeats": (-1, "repeats must be an integer of at least 0; was -1"),
+}
+
+
+def every_parameter():
+    for notebook in NOTEBOOKS:
+        for name in papermill.inspect_notebook(notebook):
+            yield pytest.param(notebook, name, id=f"{notebook.stem}-{name}")
+
+
+def run(notebook: Path, **parameters):
+    """The code of a notebook, executed here, with these parameters in place of its own."""
+    names = {}
+    for cell in json.loads(notebook.read_text())["cells"]:
+        if cell["cell_type"] == "code":
+            exec("".join(cell["source"]), names)
+            if "parameters" in cell["metadata"].get("tags", []):
+                names |= parameters
+    plt.close("all")
+
+
+@pytest.mark.parametrize(("notebook", "name"), list(every_parameter()))
+def test_a_bad_value_is_named(notebook, name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    value, message = BAD[name]
+    parameters = {name: value}
+    if "store" in papermill.inspect_notebook(notebook) and name != "store":
+        parameters["store"] = str(tmp_path / "results.sqlite")
+    with pytest.raises(ValueError, match=f"^{message}") as error:
+        run(notebook, **parameters)
+    assert "\n" not in str(error.value)
+
+
+MAZE = """
+S...#....
+.##.#.##.
+.#.....#.
+.#.###.#.
+...#...#G
+"""
+SMALL = {"runs": 2, "repeats": 1, "row": 0, "column": 2, "paths": 2}
+
+
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
+def test_a_maze_of_ones_own(notebook, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("mine.txt").write_text(MAZE)
+    known = papermill.inspect_notebook(notebook)
+    parameters = SMALL | {"maze": "mine.txt", "store": "results.sqlite"}
+    run(notebook, **{name: value for name, value in parameters.items() if name in known})
