@@ -375,11 +375,14 @@ def animate(maze: Maze, story: Sequence[Generation], frames: int = 30) -> str:
     It needs nothing from elsewhere, and no kernel.
     """
     chosen = np.unique(np.linspace(0, len(story) - 1, frames).round().astype(int))
-    images = []
+    images, shown = [], None
     for index in chosen:
         figure, _ = plot_generation(maze, story[index])
+        if shown is None:  # what the first frame fills, so that all are of one size
+            figure.draw_without_rendering()
+            shown = figure.get_tightbbox().padded(0.05)
         with io.BytesIO() as file:
-            figure.savefig(file, format="png", dpi=75, bbox_inches=figure.bbox_inches)  # all of one size
+            figure.savefig(file, format="png", dpi=75, bbox_inches=shown)
             images.append(base64.b64encode(file.getvalue()).decode())
         plt.close(figure)
     last = story[-1]
