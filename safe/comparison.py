@@ -4,9 +4,9 @@ Each comparison answers two questions. Is a difference detected: could two sampl
 came from one source? And is equivalence shown: is a difference as large as MARGIN ruled out (two one-sided tests)?
 Where neither holds the samples are too small to tell.
 
-MARGIN is 0.2 on the scale of standardised effects, "small" in Cohen's sense, and was fixed before any comparison was
-made. For rates the effect is Cohen's h, the difference of arcsines 2 arcsin sqrt(rate), whose error does not depend
-on the rates: 0.2 is 10 percentage points near a rate of one half and 4 near a rate of 2 %. For means it is
+MARGIN is 0.2 on the scale of standardised effects, which is what Cohen calls small: a convention, and so not chosen to
+suit any data. For rates the effect is Cohen's h, the difference of arcsines 2 arcsin sqrt(rate), whose error does not
+depend on the rates: 0.2 is 10 percentage points near a rate of one half and 4 near a rate of 2 %. For means it is
 Cohen's d, the difference in standard deviations.
 """
 

@@ -1,6 +1,6 @@
 """The ledger: every claim of the paper's results, the number behind it, ours, and a verdict.
 
-There are three kinds of claims, each with a rule fixed beforehand that leads from the runs to the verdict.
+There are three kinds of claims, and one rule for all of a kind leads from the runs to the verdict.
 
 A number or a likeness ("328 of 500 runs", "as often as novelty search") is compared with ours:
 
@@ -50,7 +50,6 @@ _NAMES = {
     "safe": "SAFE",
     "fixed": "fixed weights ½, ½",
     "random": "random search",
-    "unevolved": "SAFE with objective functions that do not evolve",
 }
 Results = Mapping[Experiment, pd.DataFrame]
 
@@ -76,7 +75,7 @@ class Entry:
     p_equivalence: float = np.nan
 
 
-def ledger(results: Results, repeats: Results = {}) -> pd.DataFrame:  # noqa: B006 - is only read
+def ledger(results: Results, repeats: Results | None = None) -> pd.DataFrame:
     """Every claim that these runs bear on.
 
     Parameters
@@ -84,7 +83,7 @@ def ledger(results: Results, repeats: Results = {}) -> pd.DataFrame:  # noqa: B0
     results : mapping of Experiment to DataFrame
         The runs of each experiment, one for each algorithm and maze. Those on other mazes, or with other
         parameters, than the paper's bear on none of its claims.
-    repeats : mapping of Experiment to DataFrame
+    repeats : mapping of Experiment to DataFrame, optional
         Runs of further seeds of some of them: a second look at what stood out.
 
     Returns
@@ -109,7 +108,7 @@ def ledger(results: Results, repeats: Results = {}) -> pd.DataFrame:  # noqa: B0
         ]
     table = pd.DataFrame(entries).set_index("claim")
     table["p_adjusted"] = table.groupby("family").p_value.transform(holm)
-    table = pd.concat([table, _second_look(table, results, repeats)]).rename_axis("claim")
+    table = pd.concat([table, _second_look(table, repeats or {})]).rename_axis("claim")
     table["verdict"] = [_verdict(row) for _, row in table.iterrows()]
     return table
 
@@ -364,7 +363,7 @@ def _untestable() -> Iterator[Entry]:
         yield Entry(claim, source, statement, UNTESTABLE, paper="–", here="–", evidence="–", test="–")
 
 
-def _second_look(table: pd.DataFrame, results: Results, repeats: Results) -> pd.DataFrame:
+def _second_look(table: pd.DataFrame, repeats: Results) -> pd.DataFrame:
     """Rows for the experiments that were repeated with further seeds, the seeds taken together.
 
     The paper's number was chosen for standing out among those of its family, so its p is corrected for all of them.
