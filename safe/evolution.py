@@ -321,7 +321,7 @@ def best_scores(components: np.ndarray, objectives: np.ndarray, fitness: np.ndar
     """Algorithm 1: the fitness of S_i is max_j O_j(S_i), and the first such O_j is its winner.
 
     Components are never negative, so an objective function that weighs none of them more than an earlier one does
-    cannot win. It is left out, which leaves a handful of a random population.
+    cannot win. It is left out, which leaves few of a random population.
     """
     contenders = np.empty(len(objectives), dtype=np.int64)
     m = 0

@@ -291,22 +291,22 @@ def _draw_judging(axes: Axes, generation: Generation) -> None:
         axes.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": WALL, "shrinkA": 0, "shrinkB": 0})
 
     for i in range(n):
-        text = f"$S_{{{i + 1}}}$:  1/distance {closeness[i]:.3f}"
+        text = f"$S_{{{i + 1}}}$:  1/distance {closeness[i]:.4f}"
         if generation.novelty is not None:
             text += f"\n       novelty {novelty[i]:.2f}"
         box(-1.6, i, text, "solutions", width=2.2)
         for j, weights in enumerate(generation.objectives):
             won = generation.winners[i] == j
             score = weights @ [closeness[i], novelty[i]]
-            box(j, i, f"{score:.3f}", "won" if won else "plain", fontweight="bold" if won else "normal")
+            box(j, i, f"{score:.3g}", "won" if won else "plain", fontweight="bold" if won else "normal")
         arrow((m - 0.45, i), (m - 0.05, i))
-        box(m + 0.5, i, f"{generation.fitness[i]:.3f}", "won", fontweight="bold")
+        box(m + 0.5, i, f"{generation.fitness[i]:.3g}", "won", fontweight="bold")
         arrow((m + 1.05, i), (m + 1.45, i))
     axes.text(m + 0.5, -1.1, "fitness:\nthe best\nscore", ha="center", va="center", fontsize=8)
     box(m + 2.1, (n - 1) / 2, "selection,\ncrossover,\nmutation:\nnext\nsolutions", "solutions", 1.2, n)
     middle = (m - 1) / 2
     for j, (a, b) in enumerate(generation.objectives):
-        box(j, -1.1, f"$O_{{{j + 1}}}$\na = {a:.2f}\nb = {b:.2f}", "objectives")
+        box(j, -1.1, f"$O_{{{j + 1}}}$\na={a:.4f}\nb={b:.4f}", "objectives")
         if generation.objective_fitness is not None:
             arrow((j, -1.65), (j, -2.05))
             box(j, -2.6, f"{generation.objective_fitness[j]:.3f}", "objectives", fontweight="bold")

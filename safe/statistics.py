@@ -97,6 +97,39 @@ def readable_success_table(table: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame.from_dict(rows, orient="index").rename_axis(table.index.names)
 
 
+def difference_table(results: Mapping[Experiment, pd.DataFrame], first: str, second: str) -> pd.DataFrame:
+    """Two algorithms set against each other on every maze; to read.
+
+    Parameters
+    ----------
+    results : mapping of Experiment to DataFrame
+        The runs of each experiment, as `safe.run` gives them.
+    first, second : str
+        Names of the two algorithms.
+
+    Returns
+    -------
+    pandas.DataFrame, one row for each maze
+        Successes of both, the difference of their rates with its 95 % interval in percentage points, p of Fisher's
+        exact test, p of the equivalence test.
+    """
+    counts = {(e.maze.name, e.algorithm.name): (int(runs.success.sum()), len(runs)) for e, runs in results.items()}
+    rows = {}
+    for maze in dict.fromkeys(maze for maze, _ in counts):
+        ours, other = counts[maze, first], counts[maze, second]
+        compared = compare_rates(*ours, *other)
+        rows[maze] = {
+            first: "{} of {}".format(*ours),
+            second: "{} of {}".format(*other),
+            "difference, percentage points": "{:+.1f} ({:+.1f} to {:+.1f})".format(
+                *(100 * value for value in (compared.difference, compared.low, compared.high))
+            ),
+            "p": f"{compared.p_value:.2f}",
+            "p (equivalence)": f"{compared.p_equivalence:.3f}",
+        }
+    return pd.DataFrame.from_dict(rows, orient="index").rename_axis("maze")
+
+
 def generations_table(results: Mapping[Experiment, pd.DataFrame]) -> pd.DataFrame:
     """Generations to success, averaged over the successful runs, beside the paper's; rows and columns as `means_table`.
 

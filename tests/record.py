@@ -16,14 +16,13 @@ from safe import ledger
 from safe.experiment import COEFFICIENTS, WEIGHT_COLUMNS
 
 FILE = Path(__file__).parent / "data" / "runs.npz"
-ALGORITHMS = [*safe.ALGORITHMS.values(), ledger.UNEVOLVED]
 COLUMNS = ["generation", "distance", *COEFFICIENTS, *WEIGHT_COLUMNS]
 SEEDS_OF_SECOND_LOOK = range(1, 5)
 
 
 def experiments():
     """Every experiment of the ledger's first look."""
-    return [safe.Experiment(algorithm, maze) for maze in ("maze1", "maze2") for algorithm in ALGORITHMS]
+    return [safe.Experiment(algorithm, maze) for maze in ("maze1", "maze2") for algorithm in safe.ALGORITHMS]
 
 
 def repetitions(experiment):

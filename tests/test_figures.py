@@ -162,7 +162,7 @@ def test_who_judges_whom():
     for axes, generation in ((standard, judged["standard"]), (coevolving, judged["safe"])):
         texts = [text.get_text() for text in axes.texts]
         for fitness in generation.fitness:
-            assert texts.count(f"{fitness:.3f}") >= 2, "the best score, and the fitness"
+            assert texts.count(f"{fitness:.3g}") >= 2, "the best score, and the fitness"
     assert "The objective function\nstays as it is." in [text.get_text() for text in standard.texts]
     novelties = {f"{novelty:.3f}" for novelty in judged["safe"].objective_fitness}
     assert novelties <= {text.get_text() for text in coevolving.texts}

@@ -63,6 +63,13 @@ def test_a_table_beside_the_papers():
     assert words.loc["my maze", "safe"].tolist() == ["4 of 4", "2.04 to 4", "–", "–", "–"]
 
 
+def test_two_algorithms_set_against_each_other():
+    table = statistics.difference_table(
+        {experiment("maze1", "safe"): runs(328, 500), experiment("maze1", "novelty"): runs(322, 500)}, "safe", "novelty"
+    )
+    assert table.loc["maze1"].tolist() == ["328 of 500", "322 of 500", "+1.2 (-4.7 to +7.1)", "0.74", "0.003"]
+
+
 def test_generations_to_success_beside_the_papers():
     mine = safe.Maze.from_drawing("S.G", name="my maze")
     table = statistics.generations_table(
