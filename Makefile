@@ -23,6 +23,7 @@ book: execute ## everything from nothing: environment, every notebook, the book 
 	@echo "The book: _build/html/index.html"
 
 pdf: execute ## the book as a PDF, by xelatex (what to install: see CONTRIBUTING.md)
+	@mkdir -p _build
 	$(BIN)/jupyter-book build . --toc book/_toc.yml --builder pdflatex --quiet --warningiserror --keep-going --nitpick >_build/pdf.log 2>&1 || \
 		{ tail -n 30 _build/pdf.log; exit 1; }
 	@echo "The book: _build/latex/safe.pdf"

@@ -80,6 +80,12 @@ def draw_path(axes: Axes, path: np.ndarray) -> None:
     )
 
 
+def _legend_below(figure: Figure, axes: Axes) -> None:
+    """One legend for all panels, that of the first."""
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+
+
 def plot_mazes(mazes: Sequence[Maze]) -> tuple[Figure, np.ndarray]:
     """The mazes side by side. Returns the figure and its axes, an array of shape (1, number of mazes)."""
     return plot_paths([[(maze, None, maze.name) for maze in mazes]])
@@ -101,8 +107,7 @@ def plot_paths(rows: Sequence[Sequence[tuple[Maze, np.ndarray | None, str]]]) ->
             if path is not None:
                 draw_path(axes, path)
             axes.set_title(title)
-    handles, labels = grid[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+    _legend_below(figure, grid[0, 0])
     return figure, grid
 
 
@@ -161,8 +166,7 @@ def plot_success(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
         axes.set_ylim(-0.6, len(rows) - 0.4)
         axes.set_xlim(left=min(0, axes.get_xlim()[0]))
         axes.grid(axis="x", alpha=0.3)
-    handles, labels = grid[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+    _legend_below(figure, grid[0, 0])
     return figure, grid[0]
 
 
@@ -189,8 +193,7 @@ def plot_arrivals(curves: Mapping[tuple[str, str], pd.DataFrame], generations: i
                 axes.fill_between(steps, 100 * np.array(low), 100 * np.array(high), step="post", alpha=0.2)
         axes.set(title=maze, xlabel="generation", ylabel="runs that have succeeded, %", ylim=(0, None))
         axes.set_xlim(0, generations)
-    handles, labels = grid[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+    _legend_below(figure, grid[0, 0])
     return figure, grid[0]
 
 
@@ -213,8 +216,7 @@ def plot_coefficients(samples: Mapping[str, pd.DataFrame], table: pd.DataFrame) 
         (a, a_sd), (b, b_sd) = paper.loc[["a", "b"]].to_numpy()
         axes.errorbar(a, b, xerr=a_sd, yerr=b_sd, fmt="x", capsize=4, color=GOAL, label="in the paper, mean and sd")
         axes.set(title=maze, xlabel="a (closeness)", ylabel="b (novelty)", xlim=(-0.02, 1.05))
-    handles, labels = grid[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+    _legend_below(figure, grid[0, 0])
     return figure, grid[0]
 
 
@@ -236,8 +238,7 @@ def plot_weights(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
         axes.axvline(0, color=FAINT, linewidth=0.8, zorder=0)
         labels = [f"{item}: {weighs}" for item, weighs in rows.index]
         axes.set(title=maze, xlabel="weight", yticks=places, yticklabels=labels, xlim=(-1.3, 1.3))
-    handles, labels = grid[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+    _legend_below(figure, grid[0, 0])
     return figure, grid[0]
 
 
