@@ -39,16 +39,18 @@ def experiment(maze, algorithm, **options):
     return safe.Experiment(algorithm, maze, **options)
 
 
-def test_a_table_beside_the_papers():
+def some_results():
     mine = safe.Maze.from_drawing("S.G", name="my maze")
-    table = statistics.success_table(
-        {
-            experiment("maze1", "safe"): runs(2, 4, [10, 20]),
-            experiment("maze1", "standard"): runs(0, 4),
-            experiment("maze1", "random"): runs(1, 4),
-            experiment(mine, "safe"): runs(4, 4, [1, 1, 1, 5]),
-        }
-    )
+    return {
+        experiment("maze1", "safe"): runs(2, 4, [10, 20]),
+        experiment("maze1", "standard"): runs(0, 4),
+        experiment("maze1", "random"): runs(1, 4),
+        experiment(mine, "safe"): runs(4, 4, [1, 1, 1, 5]),
+    }
+
+
+def test_a_table_beside_the_papers():
+    table = statistics.success_table(some_results())
     ours = table.loc["maze1", "safe"]
     assert (ours.successes, ours.runs, ours.paper_successes, ours.paper_runs) == (2, 4, 328, 500)
     assert ours.difference == pytest.approx(0.5 - 328 / 500)
@@ -71,15 +73,7 @@ def test_two_algorithms_set_against_each_other():
 
 
 def test_generations_to_success_beside_the_papers():
-    mine = safe.Maze.from_drawing("S.G", name="my maze")
-    table = statistics.generations_table(
-        {
-            experiment("maze1", "safe"): runs(2, 4, [10, 20]),
-            experiment("maze1", "standard"): runs(0, 4),
-            experiment("maze1", "random"): runs(1, 4),
-            experiment(mine, "safe"): runs(4, 4, [1, 1, 1, 5]),
-        }
-    )
+    table = statistics.generations_table(some_results())
     assert table.index.tolist() == [("maze1", "safe"), ("maze1", "standard"), ("my maze", "safe")]
     ours = table.loc["maze1", "safe"]
     assert (ours["mean"], ours.sd, ours.n) == (15, 5, 2)
