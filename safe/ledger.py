@@ -19,9 +19,9 @@ What no run of these experiments can decide is not testable here.
 A difference is detected where p, corrected by Holm's method for all claims of its family, is below 0.05. An effect is
 ruled out claim by claim, at the same level.
 
-A number that differs from the paper's with p < 0.05 before any correction stands out, and its experiment gets a second
-look, with as many further seeds as were decided on before. It was chosen for its p, so the p of the second look is
-multiplied by the number of claims that it was chosen from.
+Successes or mean generations that differ from the paper's with p < 0.05 before any correction stand out, and their
+experiment gets a second look, with as many further seeds as were decided on before. The number was chosen for its p, so
+the p of the second look is multiplied by how many it was chosen from.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ def ledger(results: Results, repeats: Results | None = None) -> pd.DataFrame:
 
 
 def stand_out(results: Results) -> list[Experiment]:
-    """The experiments of which a number differs from the paper's with p < 0.05, before any correction.
+    """The experiments whose successes or mean generations differ from the paper's with p < 0.05, uncorrected.
 
     They deserve a second look, with further seeds.
     """
