@@ -38,9 +38,7 @@ class Comparison:
     high: float  # the upper end
     p_value: float  # probability of a difference at least this large, if there is none
     effect: float  # the difference, standardised: Cohen's h or d
-    p_equivalence: (
-        float  # that an effect of MARGIN or more looks as small as this by chance: small, and it is ruled out
-    )
+    p_equivalence: float  # probability of an effect this small or smaller, if the true one is MARGIN
 
 
 def success_interval(successes: int, runs: int) -> tuple[float, float]:

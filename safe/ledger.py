@@ -28,18 +28,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
+from functools import partial
+from itertools import product
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 from scipy import stats
 
-from safe.algorithms import ALGORITHMS, COEFFICIENTS, Parameters
+from safe.algorithms import COEFFICIENTS
 from safe.comparison import ALPHA, compare_rates, holm, success_interval
 from safe.experiment import WEIGHT_COLUMNS, Experiment, controller_of
-from safe.maze import load_maze, maze_names, ways_to_goal
+from safe.maze import ways_to_goal
 from safe.robot import endpoints
-from safe.statistics import evolved_table, generations_table, success_table
+from safe.statistics import evolved_table, generations_table, is_the_papers, success_table
 
 REPRODUCED, NOT_REPRODUCED = "reproduced", "not reproduced"
 UNDECIDED, UNTESTABLE = "no difference detectable at this size", "not testable here"
@@ -47,7 +49,6 @@ VERDICTS = (REPRODUCED, UNDECIDED, NOT_REPRODUCED, UNTESTABLE)
 
 SUCCESSES, GENERATIONS, COMPARISONS, EVOLVED = "successes", "generations", "one against another", "evolved values"
 SECOND_LOOK = "second look"
-FAMILIES = (SUCCESSES, GENERATIONS, COMPARISONS, EVOLVED, UNTESTABLE, SECOND_LOOK)
 
 RECORD = Path(__file__).with_name("ledger.csv")
 
@@ -88,8 +89,8 @@ def ledger(results: Results, repeats: Results | None = None) -> pd.DataFrame:
     Parameters
     ----------
     results : mapping of Experiment to DataFrame
-        The runs of each experiment, one for each algorithm and maze. Those on other mazes, or with other
-        parameters, than the paper's bear on none of its claims.
+        The runs of each experiment, one for each algorithm and maze. Those that are not the paper's bear on none of
+        its claims.
     repeats : mapping of Experiment to DataFrame, optional
         Runs of further seeds of some of them: a second look at what stood out.
 
@@ -99,15 +100,14 @@ def ledger(results: Results, repeats: Results | None = None) -> pd.DataFrame:
         source, statement, family, paper, here, evidence, test, direction, difference, low, high (the 95 % interval of
         the difference), p_value, effect, p_equivalence, p_adjusted (Holm's, within the family), verdict.
     """
-    results = {experiment: runs for experiment, runs in results.items() if _is_as_in_the_paper(experiment)}
-    named = {(e.maze.name, e.algorithm.name): e for e in results}
+    results = {experiment: runs for experiment, runs in results.items() if is_the_papers(experiment)}
     entries = list(_untestable())
     if results:
         entries = [
             *_successes(results),
             *_generations(results),
-            *_directions(results, named),
-            *_likenesses(results, named),
+            *_directions(results),
+            *_likenesses(results),
             *_deceptions(results),
             *_weighings(results),
             *_evolved(results),
@@ -169,11 +169,6 @@ def changed(table: pd.DataFrame) -> list[str]:
     return [f"{claim}: was {record.verdict[claim]!r}, is {table.verdict[claim]!r}" for claim in table.index[other]]
 
 
-def _is_as_in_the_paper(experiment: Experiment) -> bool:
-    maze = experiment.maze
-    return maze.name in maze_names() and maze == load_maze(maze.name) and experiment.parameters == Parameters()
-
-
 def _verdict(row: pd.Series) -> str:
     if row.family == UNTESTABLE:
         return UNTESTABLE
@@ -187,8 +182,8 @@ def _verdict(row: pd.Series) -> str:
 
 def _successes(results: Results) -> Iterator[Entry]:
     """The paper's counts of successes."""
-    table = success_table(results)
-    for (maze, algorithm), row in table[table.paper_runs.notna()].iterrows():
+    evidence = _evidence(results)
+    for (maze, algorithm), row in success_table(results).iterrows():
         yield Entry(
             claim=f"{maze} {algorithm} successes",
             source="Table 2" if algorithm != "fixed" else "text",
@@ -196,7 +191,7 @@ def _successes(results: Results) -> Iterator[Entry]:
             family=SUCCESSES,
             paper=f"{row.paper_successes:.0f} of {row.paper_runs:.0f}",
             here=f"{row.successes:.0f} of {row.runs:.0f}",
-            evidence=_evidence(results, maze, algorithm),
+            evidence=evidence[maze, algorithm],
             test="Fisher, Newcombe",
             difference=row.difference,
             low=row.difference_low,
@@ -209,7 +204,7 @@ def _successes(results: Results) -> Iterator[Entry]:
 
 def _generations(results: Results) -> Iterator[Entry]:
     """The paper's mean generations to success."""
-    table = generations_table(results)
+    table, evidence = generations_table(results), _evidence(results)
     for (maze, algorithm), row in table[table.paper_n.notna()].iterrows():
         yield _mean_entry(
             row,
@@ -217,25 +212,25 @@ def _generations(results: Results) -> Iterator[Entry]:
             source="Table 2",
             statement=f"{_capital(_NAMES[algorithm])} on {maze}",
             family=GENERATIONS,
-            evidence=_evidence(results, maze, algorithm),
+            evidence=evidence[maze, algorithm],
             digits=0,
         )
 
 
 def _evolved(results: Results) -> Iterator[Entry]:
     """The paper's coefficients, and its Table 3."""
-    safe_alone = {e: runs for e, runs in results.items() if e.algorithm == ALGORITHMS["safe"]}
+    safe_alone = {e: runs for e, runs in results.items() if e.algorithm.name == "safe"}
     if not safe_alone:
         return
-    table = evolved_table(safe_alone, [*COEFFICIENTS, *WEIGHT_COLUMNS])
-    for (maze, item, weighs), row in table[table.paper_n.notna()].iterrows():
+    table, evidence = evolved_table(safe_alone, [*COEFFICIENTS, *WEIGHT_COLUMNS]), _evidence(results)
+    for (maze, item, weighs), row in table.iterrows():
         yield _mean_entry(
             row,
             claim=f"{maze} {item}",
             source="text" if item in COEFFICIENTS else "Table 3",
             statement=f"{item} on {maze}, the weight of {weighs}",
             family=EVOLVED,
-            evidence=_evidence(results, maze, "safe"),
+            evidence=evidence[maze, "safe"],
             digits=2,
         )
 
@@ -251,63 +246,48 @@ def _mean_entry(row: pd.Series, digits: int, **what: str) -> Entry:
     )
 
 
-def _directions(results: Results, named: Mapping) -> Iterator[Entry]:
+def _directions(results: Results) -> Iterator[Entry]:
     """Which of two experiments succeeds more often."""
-    pairs = (
-        [
-            (
-                (maze, better),
-                (maze, worse),
-                f"{_capital(_NAMES[better])} succeeds more often than {_NAMES[worse]} on {maze}",
-            )
-            for maze in ("maze1", "maze2")
-            for better in ("novelty", "safe")
-            for worse in ("standard", "random")
-        ]
-        + [
-            (
-                ("maze1", "random"),
-                ("maze1", "standard"),
-                "Random search succeeds more often than the standard algorithm on maze1",
-            )
-        ]
-        + [
-            (("maze1", name), ("maze2", name), f"maze2 is harder than maze1 for {_NAMES[name]}")
-            for name in ("novelty", "safe", "fixed")
-        ]
-    )
-    for first, second, statement in pairs:
-        yield from _pair(results, named, first, second, "Table 2", statement, direction=1)
+    compare = partial(_pair, success_table(results), _evidence(results), direction=1, source="Table 2")
+    more_often = product(("maze1", "maze2"), ("novelty", "safe"), ("standard", "random"))
+    for maze, better, worse in [*more_often, ("maze1", "random", "standard")]:
+        statement = f"{_capital(_NAMES[better])} succeeds more often than {_NAMES[worse]} on {maze}"
+        yield from compare((maze, better), (maze, worse), statement)
+    for name in ("novelty", "safe", "fixed"):
+        yield from compare(("maze1", name), ("maze2", name), f"maze2 is harder than maze1 for {_NAMES[name]}")
 
 
-def _likenesses(results: Results, named: Mapping) -> Iterator[Entry]:
+def _likenesses(results: Results) -> Iterator[Entry]:
     """Which of two experiments succeed equally often, as far as can be told."""
-    for maze in ("maze1", "maze2"):
-        for other, source in (("novelty", "Table 2"), ("fixed", "text")):
-            statement = f"SAFE succeeds as often as {_NAMES[other]} on {maze}"
-            yield from _pair(results, named, (maze, "safe"), (maze, other), source, statement, direction=0)
+    compare = partial(_pair, success_table(results), _evidence(results), direction=0)
+    for maze, (other, source) in product(("maze1", "maze2"), (("novelty", "Table 2"), ("fixed", "text"))):
+        statement = f"SAFE succeeds as often as {_NAMES[other]} on {maze}"
+        yield from compare((maze, "safe"), (maze, other), statement, source=source)
 
 
 def _pair(
-    results: Results, named: Mapping, first: tuple, second: tuple, source: str, statement: str, direction: int
+    counts: pd.DataFrame,
+    evidence: Mapping[tuple[str, str], str],
+    first: tuple[str, str],
+    second: tuple[str, str],
+    statement: str,
+    *,
+    direction: int,
+    source: str,
 ) -> Iterator[Entry]:
-    """One of our experiments set against another, where both have been run."""
-    if not (first in named and second in named):
+    """One of our experiments set against another, where both have been run; counts are of `success_table`."""
+    if not (first in evidence and second in evidence):
         return
-    counts = [(int(runs.success.sum()), len(runs)) for runs in (results[named[first]], results[named[second]])]
-    comparison = compare_rates(*counts[0], *counts[1])
-    paper = success_table({named[key]: results[named[key]] for key in (first, second)})
-    known = paper.paper_runs.notna().all()
+    pair = [counts.loc[first], counts.loc[second]]
+    comparison = compare_rates(*(int(row[name]) for row in pair for name in ("successes", "runs")))
     yield Entry(
         claim=f"{' '.join(first)} {'>' if direction else '~'} {' '.join(second)}",
         source=source,
         statement=statement,
         family=COMPARISONS,
-        paper=" against ".join(f"{row.paper_successes:.0f} of {row.paper_runs:.0f}" for _, row in paper.iterrows())
-        if known
-        else "–",
-        here=" against ".join(f"{successes} of {runs}" for successes, runs in counts),
-        evidence="; ".join(_evidence(results, *key) for key in (first, second)),
+        paper=" against ".join(f"{row.paper_successes:.0f} of {row.paper_runs:.0f}" for row in pair),
+        here=" against ".join(f"{row.successes:.0f} of {row.runs:.0f}" for row in pair),
+        evidence=f"{evidence[first]}; {evidence[second]}",
         test="Fisher, Newcombe",
         direction=direction,
         **asdict(comparison),
@@ -316,8 +296,9 @@ def _pair(
 
 def _deceptions(results: Results) -> Iterator[Entry]:
     """The standard algorithm's best robots end near the goal, with nearly all of the way still before them."""
+    evidence = _evidence(results)
     for experiment, runs in results.items():
-        if experiment.algorithm == ALGORITHMS["standard"]:
+        if experiment.algorithm.name == "standard":
             maze = experiment.maze
             ends = endpoints(maze, [controller_of(row) for _, row in runs.iterrows()], experiment.parameters.steps)
             ways = ways_to_goal(maze)
@@ -330,15 +311,16 @@ def _deceptions(results: Results) -> Iterator[Entry]:
                 source="Figure 2",
                 statement=f"In most runs the standard algorithm is deceived on {maze.name}: its best robot ends less "
                 "than half as far from the goal as it starts, with more than 90 % of the way still to go",
-                evidence=_evidence(results, maze.name, "standard"),
+                evidence=evidence[maze.name, "standard"],
             )
 
 
 def _weighings(results: Results) -> Iterator[Entry]:
     """The objective functions of successful runs weigh novelty more than closeness."""
+    evidence = _evidence(results)
     for experiment, runs in results.items():
         successful = runs[runs.success]
-        if experiment.algorithm == ALGORITHMS["safe"] and len(successful):
+        if experiment.algorithm.name == "safe" and len(successful):
             maze = experiment.maze.name
             yield _share_entry(
                 int((successful.b > successful.a).sum()),
@@ -346,7 +328,7 @@ def _weighings(results: Results) -> Iterator[Entry]:
                 claim=f"{maze} b > a",
                 source="text",
                 statement=f"In most successful runs on {maze} the objective function weighs novelty more",
-                evidence=_evidence(results, maze, "safe"),
+                evidence=evidence[maze, "safe"],
             )
 
 
@@ -403,9 +385,10 @@ def _second_look(table: pd.DataFrame, repeats: Results) -> pd.DataFrame:
     return pd.DataFrame.from_dict(rows, orient="index", columns=table.columns)
 
 
-def _evidence(results: Results, maze: str, algorithm: str) -> str:
-    (experiment,) = [e for e in results if (e.maze.name, e.algorithm.name) == (maze, algorithm)]
-    return _runs_of(maze, algorithm, len(results[experiment]), experiment.seed)
+def _evidence(results: Results) -> dict[tuple[str, str], str]:
+    """What stands behind a number of an experiment, by the names of maze and algorithm."""
+    names = {experiment: (experiment.maze.name, experiment.algorithm.name) for experiment in results}
+    return {names[e]: _runs_of(*names[e], len(runs), e.seed) for e, runs in results.items()}
 
 
 def _runs_of(maze: str, algorithm: str, runs: int, *seeds: int) -> str:

@@ -25,6 +25,17 @@ def published() -> pd.DataFrame:
     return pd.read_csv(Path(__file__).with_name("published.csv"))
 
 
+def is_the_papers(experiment: Experiment) -> bool:
+    """Is it one of the paper's? What it is called does not make it so: its maze, algorithm and parameters do."""
+    maze, algorithm = experiment.maze, experiment.algorithm
+    return (
+        maze.name in maze_names()
+        and maze == load_maze(maze.name)
+        and algorithm == ALGORITHMS.get(algorithm.name)
+        and experiment.parameters == Parameters()
+    )
+
+
 def parameter_table(parameters: Parameters = Parameters()) -> pd.DataFrame:
     """Parameters beside the paper's Table 1.
 
@@ -86,12 +97,11 @@ def readable_success_table(table: pd.DataFrame) -> pd.DataFrame:
     """A table of `success_table` to read: intervals as counts out of the runs, a dash for what is not there."""
     rows = {}
     for index, row in table.iterrows():
-        points = 100 * row[["difference", "difference_low", "difference_high"]]
         rows[index] = {
             "successes": f"{row.successes:.0f} of {row.runs:.0f}",
             "95 % interval": f"{row.low * row.runs:.3g} to {row.high * row.runs:.3g}",
             "in the paper": _show("{:.0f} of {:.0f}", row.paper_successes, row.paper_runs),
-            "difference, percentage points": _show("{:+.1f} ({:+.1f} to {:+.1f})", *points),
+            "difference, percentage points": _points(row.difference, row.difference_low, row.difference_high),
             "p": _show("{:.2f}", row.p_value),
         }
     return pd.DataFrame.from_dict(rows, orient="index").rename_axis(table.index.names)
@@ -121,9 +131,7 @@ def difference_table(results: Mapping[Experiment, pd.DataFrame], first: str, sec
         rows[maze] = {
             first: "{} of {}".format(*ours),
             second: "{} of {}".format(*other),
-            "difference, percentage points": "{:+.1f} ({:+.1f} to {:+.1f})".format(
-                *(100 * value for value in (compared.difference, compared.low, compared.high))
-            ),
+            "difference, percentage points": _points(compared.difference, compared.low, compared.high),
             "p": f"{compared.p_value:.2f}",
             "p (equivalence)": f"{compared.p_equivalence:.3f}",
         }
@@ -168,9 +176,10 @@ def means_table(samples: Mapping[tuple[Experiment, str], pd.Series]) -> pd.DataF
         difference, low, high, p_value, effect, p_equivalence. Not a number where there is none.
     """
     ours, theirs = ("mean", "sd", "n"), ("paper_mean", "paper_sd", "paper_n")
+    published_for = {experiment: _published_for(experiment) for experiment, _ in samples}
     rows = []
     for (experiment, item), sample in samples.items():
-        paper = _published_for(experiment).reindex([item]).iloc[0]
+        paper = published_for[experiment].reindex([item]).iloc[0]
         values = sample.mean(), sample.std(ddof=0), len(sample), paper["mean"], paper["sd"], paper["n"]
         rows.append(dict(zip(ours + theirs, values, strict=True)) | asdict(compare_means(*values)))
     index = pd.MultiIndex.from_arrays(
@@ -211,21 +220,19 @@ def _show(template: str, *values: float) -> str:
     return "–" if np.isnan(values).any() else template.format(*values)
 
 
+def _points(difference: float, low: float, high: float) -> str:
+    """A difference of rates with its interval, in percentage points."""
+    return _show("{:+.1f} ({:+.1f} to {:+.1f})", 100 * difference, 100 * low, 100 * high)
+
+
 def _published_for(experiment: Experiment) -> pd.DataFrame:
     """What the paper reports of an experiment: mean, sd and n; nothing where the experiment is not the paper's.
 
     Indexed by quantity ("successes", "generations to success") and, for SAFE, by what was evolved (a, b, p1..p16).
-    What an experiment is called does not make it the paper's: its maze, algorithm and parameters do.
     """
     maze, algorithm = experiment.maze, experiment.algorithm
-    is_the_papers = (
-        maze.name in maze_names()
-        and maze == load_maze(maze.name)
-        and algorithm == ALGORITHMS.get(algorithm.name)
-        and experiment.parameters == Parameters()
-    )
     paper = published()
-    paper = paper[(paper.maze == maze.name) & is_the_papers]
+    paper = paper[(paper.maze == maze.name) & is_the_papers(experiment)]
     counted = paper[paper["item"] == algorithm.name].set_index("quantity")
     evolved = paper[~paper["item"].isin(ALGORITHMS) & (algorithm.name == "safe")].set_index("item")
     return pd.concat([counted, evolved])[["mean", "sd", "n"]]
