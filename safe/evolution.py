@@ -65,6 +65,7 @@ class Generation(Run):
     genomes: np.ndarray  # float, (population, 16): p_1..p_16 of each solution
     endpoints: np.ndarray  # int, (population, 2): row and column
     distances: np.ndarray  # int, (population,): end point to goal, taxicab, in cells
+    components: np.ndarray  # float, (components, population): what objective functions weigh; 0 what none can weigh
     novelty: np.ndarray | None  # float, (population,); None where no objective function can weigh it
     fitness: np.ndarray | None  # float, (population,); None in random search
     objectives: np.ndarray  # float, (objective functions, components): the weights of each
@@ -261,6 +262,7 @@ def _step_by_step(state: State, settings: Settings, rng: np.random.Generator) ->
             genomes=state.genomes.copy(),
             endpoints=state.endpoints.copy(),
             distances=state.distances.copy(),
+            components=state.components.copy(),
             novelty=state.components[NOVELTY].copy() if settings.weigh_novelty else None,
             fitness=state.fitness.copy() if judged else None,
             objectives=state.objectives.copy(),

@@ -280,8 +280,8 @@ def plot_judging(generations: Mapping[str, Generation]) -> tuple[Figure, np.ndar
 
 def _draw_judging(axes: Axes, generation: Generation) -> None:
     n, m = len(generation.genomes), len(generation.objectives)
-    closeness = [1 / distance if distance else 2.0 for distance in generation.distances]
-    novelty = np.zeros(n) if generation.novelty is None else generation.novelty
+    scores = generation.components.T @ generation.objectives.T
+    closeness, novelty = generation.components
 
     def box(x: float, y: float, text: str, kind: str, width: float = 1, height: float = 1, **style: str) -> None:
         corner = x - width / 2, y - height / 2
@@ -296,10 +296,9 @@ def _draw_judging(axes: Axes, generation: Generation) -> None:
         if generation.novelty is not None:
             text += f"\n       novelty {novelty[i]:.2f}"
         box(-1.6, i, text, "solutions", width=2.2)
-        for j, weights in enumerate(generation.objectives):
+        for j in range(m):
             won = generation.winners[i] == j
-            score = weights @ [closeness[i], novelty[i]]
-            box(j, i, f"{score:.3g}", "won" if won else "plain", fontweight="bold" if won else "normal")
+            box(j, i, f"{scores[i, j]:.3g}", "won" if won else "plain", fontweight="bold" if won else "normal")
         arrow((m - 0.45, i), (m - 0.05, i))
         box(m + 0.5, i, f"{generation.fitness[i]:.3g}", "won", fontweight="bold")
         arrow((m + 1.05, i), (m + 1.45, i))

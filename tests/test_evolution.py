@@ -190,3 +190,13 @@ def test_at_the_goal_the_component_is_two():
 def test_bad_arguments(function, arguments, complaint):
     with pytest.raises(ValueError, match=complaint):
         function(**{"maze": "maze1", "algorithm": "safe", "seed": 0, **arguments})
+
+
+@pytest.mark.parametrize("algorithm", ["standard", "novelty", "safe", "fixed"])
+def test_fitness_is_the_best_weighing_of_the_components(algorithm):
+    for generation in safe.generations("maze1", algorithm, 3, safe.Parameters(generations=3)):
+        scores = generation.components.T @ generation.objectives.T
+        assert scores.max(axis=1) == pytest.approx(generation.fitness, rel=1e-12)
+        assert scores[np.arange(len(scores)), generation.winners] == pytest.approx(generation.fitness, rel=1e-12)
+        expected = np.zeros(len(scores)) if generation.novelty is None else generation.novelty
+        assert (generation.components[1] == expected).all()
