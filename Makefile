@@ -6,6 +6,7 @@ export RUNS
 
 BIN := .venv/bin
 INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
+BUILD := $(BIN)/jupyter-book build . --toc book/_toc.yml --quiet --warningiserror --keep-going --nitpick
 KERNEL_TESTS := tests/test_robot.py tests/test_novelty.py tests/test_operators.py tests/test_evolution.py
 
 .PHONY: help env execute book pdf test format picture constraints clean
@@ -19,13 +20,12 @@ execute: env ## execute the notebooks that are stale, with RUNS runs of each exp
 	$(BIN)/python book/execute.py
 
 book: execute ## everything from nothing: environment, every notebook, the book (RUNS=20 for a class)
-	$(BIN)/jupyter-book build . --toc book/_toc.yml --quiet --warningiserror --keep-going --nitpick
+	$(BUILD)
 	@echo "The book: _build/html/index.html"
 
 pdf: execute ## the book as a PDF, by xelatex (what to install: see CONTRIBUTING.md)
 	@mkdir -p _build
-	$(BIN)/jupyter-book build . --toc book/_toc.yml --builder pdflatex --quiet --warningiserror --keep-going --nitpick >_build/pdf.log 2>&1 || \
-		{ tail -n 30 _build/pdf.log; exit 1; }
+	$(BUILD) --builder pdflatex >_build/pdf.log 2>&1 || { tail -n 30 _build/pdf.log; exit 1; }
 	@echo "The book: _build/latex/safe.pdf"
 
 test: .venv/installed-for-tests ## everything from nothing: environment, the tests

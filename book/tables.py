@@ -34,10 +34,22 @@ class ResultTables(SphinxTransform):
             for cell in self.document.findall(nodes.container)
             if cell.get("nb_element") == "cell_code" and "table" in cell["cell_metadata"]
         ]
+        if not cells:
+            return
+        copy = EXECUTED / f"{self.env.docname.rsplit('/', 1)[-1]}.ipynb"
+        executed = json.loads(copy.read_text(encoding="utf-8"))["cells"]
         for cell in cells:
             (output,) = (part for part in cell.children if part.get("nb_element") == "cell_code_output")
             output.children = []
-            output += self.table(self.csv(cell["cell_index"]), cell["cell_metadata"]["table"])
+            settings = cell["cell_metadata"]["table"]
+            shown = [
+                o["data"]["text/csv"]
+                for o in executed[cell["cell_index"]]["outputs"]
+                if "text/csv" in o.get("data", {})
+            ]
+            if len(shown) != 1:
+                raise ExtensionError(f"{copy.name} must show one table as {settings['name']}; showed {len(shown)}")
+            output += self.table("".join(shown[0]), settings)
 
     def table(self, text: str, settings: dict) -> list[nodes.Node]:
         name, stub = settings["name"], settings.get("stub", 1)
@@ -59,15 +71,6 @@ class ResultTables(SphinxTransform):
             "", nodes.Text("this table as CSV"), reftarget=f"/{file.relative_to(ROOT)}", refdoc=self.env.docname
         )
         return [table, nodes.paragraph("", "", link, classes=["results-download"])]
-
-    def csv(self, index: int) -> str:
-        """What the cell showed."""
-        copy = EXECUTED / f"{self.env.docname.rsplit('/', 1)[-1]}.ipynb"
-        outputs = json.loads(copy.read_text(encoding="utf-8"))["cells"][index]["outputs"]
-        found = [output["data"]["text/csv"] for output in outputs if "text/csv" in output.get("data", {})]
-        if len(found) != 1:
-            raise ExtensionError(f"cell {index} of {copy.name} must show one table; showed {len(found)}")
-        return "".join(found[0])
 
 
 class PrintedTables(SphinxPostTransform):
