@@ -33,8 +33,8 @@ from safe import checks
 from safe.algorithms import COMPONENTS, Algorithm, Parameters, get_algorithm
 from safe.kernel import kernel
 from safe.maze import Maze, MazeArrays, load_maze
-from safe.novelty import ArchiveArrays, archived, empty_archive, score_cells, score_points
-from safe.operators import Breeding, breed, draw_genomes
+from safe.novelty import ArchiveArrays, archived, empty_archive, empty_crowd, score_cells, score_points
+from safe.operators import Breeding, breed, copy_genomes, draw_genomes
 from safe.robot import WEIGHTS, walk_all, walk_space
 
 RULES = 1  # raised whenever a change alters what any run gives
@@ -150,7 +150,7 @@ class State(NamedTuple):
     fitness: np.ndarray  # float64, (population,)
     winners: np.ndarray  # int64, (population,)
     archive: ArchiveArrays
-    crowd: np.ndarray  # int32, (height, width): points of the archive in each cell
+    crowd: np.ndarray  # int32: points of the archive in each cell, see `empty_crowd`
     objectives: np.ndarray  # float64, (objective functions, components)
     objective_fitness: np.ndarray  # float64, (objective functions,)
     objective_archive: ArchiveArrays
@@ -163,7 +163,6 @@ class State(NamedTuple):
     objective_offspring: np.ndarray
     trail: np.ndarray
     stood_at: np.ndarray
-    nearest: np.ndarray
 
 
 def _start(
@@ -209,7 +208,7 @@ def _start(
         fitness=np.zeros(n),
         winners=np.zeros(n, dtype=np.int64),
         archive=empty_archive(parameters.archive, 2),
-        crowd=np.zeros(maze.shape, dtype=np.int32),
+        crowd=empty_crowd(maze.shape),
         objectives=objectives,
         objective_fitness=np.zeros(m),
         objective_archive=empty_archive(parameters.archive, len(COMPONENTS)),
@@ -221,7 +220,6 @@ def _start(
         objective_offspring=np.empty_like(objectives),
         trail=trail,
         stood_at=stood_at,
-        nearest=np.empty(parameters.k),
     )
     return state, settings, rng
 
@@ -295,7 +293,8 @@ def advance(state: State, settings: Settings, rng: np.random.Generator) -> bool:
     _evaluate(state, settings)
     _keep_best(state)
     if settings.evolving:
-        _rate_objectives(state, settings)
+        # Algorithm 2: the fitness of an objective function is the novelty of its genome
+        score_points(state.objectives, state.objective_archive, settings.k, False, state.objective_fitness)
     is_last = state.number[0] + 1 >= settings.generations
     # random search has no first success to stop at: it looks for the best of all that it may draw
     has_succeeded = len(state.objectives) > 0 and state.best_distance[0] <= settings.success_distance
@@ -328,27 +327,33 @@ def best_scores(components: np.ndarray, objectives: np.ndarray, fitness: np.ndar
     contenders = np.empty(len(objectives), dtype=np.int64)
     m = 0
     for j in range(len(objectives)):
-        if not _is_matched(objectives, j, contenders[:m]):
+        if not _is_matched(objectives, j, contenders, m):
             contenders[m] = j
             m += 1
-    for i in range(len(fitness)):
+    n = len(fitness)
+    scores = np.empty(n)
+    for i in range(n):
         fitness[i] = -np.inf
-        for j in contenders[:m]:
-            score = 0.0  # O_j(S_i), Equation 1
-            for c in range(len(components)):
-                score += objectives[j, c] * components[c, i]
-            if score > fitness[i]:
-                fitness[i] = score
-                winners[i] = j
+    for e in range(m):
+        j = contenders[e]
+        for i in range(n):
+            scores[i] = 0.0
+        for c in range(len(components)):  # O_j(S_i), Equation 1
+            for i in range(n):
+                scores[i] += objectives[j, c] * components[c, i]
+        for i in range(n):  # selects, not branches: the processor does several at once
+            is_better = scores[i] > fitness[i]
+            fitness[i] = scores[i] if is_better else fitness[i]
+            winners[i] = j if is_better else winners[i]
 
 
 @kernel
-def _is_matched(objectives: np.ndarray, j: int, earlier: np.ndarray) -> bool:
-    """Does one of the earlier objective functions weigh every component at least as much as the j-th does?"""
-    for e in earlier:
+def _is_matched(objectives: np.ndarray, j: int, contenders: np.ndarray, m: int) -> bool:
+    """Does one of the first m contenders weigh every component at least as much as the j-th objective function does?"""
+    for e in range(m):
         weighs_more = False
         for c in range(objectives.shape[1]):
-            weighs_more |= objectives[j, c] > objectives[e, c]
+            weighs_more |= objectives[j, c] > objectives[contenders[e], c]
         if not weighs_more:
             return True
     return False
@@ -360,22 +365,11 @@ def _keep_best(state: State) -> None:
     for i in range(len(state.distances)):
         if state.distances[i] < state.best_distance[0]:
             state.best_distance[0] = state.distances[i]
-            state.best_controller[:] = state.genomes[i]
+            for gene in range(WEIGHTS):
+                state.best_controller[gene] = state.genomes[i, gene]
             if len(state.objectives) > 0:
-                state.best_coefficients[:] = state.objectives[state.winners[i]]
-
-
-@kernel
-def _rate_objectives(state: State, settings: Settings) -> None:
-    """Algorithm 2: the fitness of an objective function is the novelty of its genome."""
-    score_points(
-        state.objectives,
-        state.objective_archive,
-        settings.k,
-        False,
-        state.nearest,
-        state.objective_fitness,
-    )
+                for c in range(len(state.best_coefficients)):
+                    state.best_coefficients[c] = state.objectives[state.winners[i], c]
 
 
 @kernel
@@ -385,7 +379,7 @@ def _breed_both(state: State, settings: Settings, rng: np.random.Generator) -> N
         draw_genomes(rng, settings.breeding.low, settings.breeding.high, state.genomes)
         return
     breed(state.genomes, state.fitness, settings.breeding, rng, state.offspring)
-    state.genomes[:] = state.offspring
+    copy_genomes(state.offspring, state.genomes)
     if settings.evolving:
         breed(state.objectives, state.objective_fitness, settings.objective_breeding, rng, state.objective_offspring)
-        state.objectives[:] = state.objective_offspring
+        copy_genomes(state.objective_offspring, state.objectives)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numba
+import numpy as np
 
 _PACKAGE = Path(__file__).parent
 
@@ -18,7 +19,7 @@ def kernel(function: Callable) -> Callable:
     """
     if numba.config.DISABLE_JIT:
         return function
-    compiled = numba.njit(nogil=True, cache=True)(function)
+    compiled = numba.njit(nogil=True, cache=True, error_model="numpy")(function)
     _forget_stale_cache(compiled)
     return compiled
 
@@ -34,3 +35,9 @@ def _forget_stale_cache(compiled: Callable) -> None:
     for index in Path(compiled.stats.cache_path).glob(name + "*.nbi"):
         if index.stat().st_mtime < newest_source:
             index.unlink(missing_ok=True)
+
+
+@kernel
+def index(n: int) -> int:
+    """An index that is known not to be negative: at any other numba looks first whether it counts from the end."""
+    return np.uint64(n)

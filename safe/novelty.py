@@ -15,25 +15,29 @@ distance between genomes.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
 from safe import checks
-from safe.kernel import kernel
+from safe.kernel import index, kernel
 
 METRICS = ("taxicab", "euclidean")
 K = 15
 ARCHIVE_CAPACITY = 1000
+FARTHEST = 1e100  # of a coordinate from 0: squares of distances are still numbers
+RINGS = 24  # of cells around a point that are searched: to go through more would cost more than to measure all
 
 
 class ArchiveArrays(NamedTuple):
     """What the compiled functions need of an archive; changed in place."""
 
-    points: np.ndarray  # float64, (dimensions, capacity), in ascending order of the first coordinate
+    points: np.ndarray  # float64, (dimensions, capacity)
     scores: np.ndarray  # float64, (capacity,), as they were on entry
     entry: np.ndarray  # int64, (capacity,), 0 for the first point that ever entered
-    counts: np.ndarray  # int64, (3,): points in it now, points that ever entered, place of the lowest
+    heap: np.ndarray  # int64, (capacity,), places as a binary heap: the lowest score first, and of equals the oldest
+    counts: np.ndarray  # int64, (2,): points in it now, points that ever entered
 
 
 class NoveltyArchive:
@@ -88,14 +92,14 @@ class NoveltyArchive:
         Raises
         ------
         ValueError
-            Where the points are not finite or have other dimensions than those before.
+            Where the points are not finite, farther out than 1e100, or have other dimensions than those before.
         """
         dimensions = None if self._arrays is None else len(self._arrays.points)
-        points = checks.array("points", points, (None, dimensions))
+        points = checks.array("points", points, (None, dimensions), -FARTHEST, FARTHEST)
         if self._arrays is None:
             self._arrays = empty_archive(self.capacity, points.shape[1])
         scores = np.empty(len(points))
-        score_points(points, self._arrays, self.k, self.metric == "taxicab", np.empty(self.k), scores)
+        score_points(points, self._arrays, self.k, self.metric == "taxicab", scores)
         return scores
 
     def __len__(self) -> int:
@@ -118,8 +122,14 @@ def empty_archive(capacity: int, dimensions: int) -> ArchiveArrays:
         points=np.zeros((dimensions, capacity)),
         scores=np.zeros(capacity),
         entry=np.zeros(capacity, dtype=np.int64),
-        counts=np.zeros(3, dtype=np.int64),
+        heap=np.zeros(capacity, dtype=np.int64),
+        counts=np.zeros(2, dtype=np.int64),
     )
+
+
+def empty_crowd(shape: tuple[int, int]) -> np.ndarray:
+    """How many points are in each cell of a maze (none), with a margin of RINGS around it that never holds any."""
+    return np.zeros((shape[0] + 2 * RINGS, shape[1] + 2 * RINGS), dtype=np.int32)
 
 
 def archived(archive: ArchiveArrays) -> tuple[np.ndarray, np.ndarray]:
@@ -135,115 +145,263 @@ def archived(archive: ArchiveArrays) -> tuple[np.ndarray, np.ndarray]:
 #
 # End points are cells of a maze, so taxicab distances are whole numbers and many points share a cell. `score_cells`
 # keeps count of the points in every cell, and adds the counts up ring by ring around a point until it has k neighbours.
+# Where they are farther than some rings, in a large and empty maze, it measures the distance to every point.
 #
-# `score_points` serves any points. It looks among points sorted by their first coordinate, outwards from the point
-# itself: the difference in one coordinate alone is never more than the distance, so the search ends where that
-# difference reaches the k-th smallest distance found so far. Euclidean distances stay squared until the nearest are
-# found: the order is the same, and k roots are taken, not all.
+# `score_points` serves any points. It sorts them into the cells of a grid, and looks around a point as far as its k
+# neighbours would be if points were spread evenly, which objective functions nearly are; and then farther, where that
+# was not far enough. Euclidean distances stay squared until the nearest are found: the order is the same.
 
 
 @kernel
 def score_cells(cells: np.ndarray, archive: ArchiveArrays, crowd: np.ndarray, k: int, scores: np.ndarray) -> None:
     """Score cells (int64, (n, 2), row and column) by taxicab distance, in order, offering each to the archive.
 
-    `crowd`, int32 of the shape of the maze, counts the archive's points in each cell, before and after.
+    `crowd` (see `empty_crowd`) counts the archive's points in each cell, before and after.
     """
     n = len(cells)
     for i in range(n):
-        crowd[cells[i, 0], cells[i, 1]] += 1
+        crowd[RINGS + cells[i, 0], RINGS + cells[i, 1]] += 1
+    size = archive.counts[0]
+    threshold = threshold_of(archive)
     for i in range(n):
-        row, column = cells[i]
-        size, _, lowest = archive.counts
-        scores[i] = _sum_of_nearest(row, column, crowd, min(k, n - 1 + size)) / k
-        leaving_row, leaving_column = np.int64(0), np.int64(0)
-        is_full = size > 0 and size == len(archive.scores)
-        if is_full:
-            leaving_row, leaving_column = np.int64(archive.points[0, lowest]), np.int64(archive.points[1, lowest])
-        if offer(archive, cells[i], scores[i]):
-            crowd[row, column] += 1
-            if is_full:
-                crowd[leaving_row, leaving_column] -= 1
+        row, column = cells[i, 0], cells[i, 1]
+        wanted = min(k, n - 1 + size)
+        total = _sum_over_rings(RINGS + row, RINGS + column, crowd, wanted)
+        if total < 0:
+            total = _sum_over_all(row, column, cells, archive.points, size, wanted)
+        scores[i] = total / k
+        if scores[i] > threshold:
+            place = vacate(archive)
+            if place < size:
+                crowd[RINGS + int(archive.points[0, place]), RINGS + int(archive.points[1, place])] -= 1
+            crowd[RINGS + row, RINGS + column] += 1
+            enter(archive, place, cells[i], scores[i])
+            size = archive.counts[0]
+            threshold = threshold_of(archive)
     for i in range(n):
-        crowd[cells[i, 0], cells[i, 1]] -= 1
+        crowd[RINGS + cells[i, 0], RINGS + cells[i, 1]] -= 1
 
 
 @kernel
-def _sum_of_nearest(row: int, column: int, crowd: np.ndarray, wanted: int) -> int:
-    """The sum of the distances from a point in this cell to the `wanted` nearest others in the crowd."""
-    height, width = crowd.shape
+def _sum_over_rings(row: int, column: int, crowd: np.ndarray, wanted: int) -> int:
+    """The sum of the distances from a point in this cell to the `wanted` nearest others; -1 if they are beyond the rings."""
     found = crowd[row, column] - 1  # without the point itself
     total = 0
-    radius = 0
-    while found < wanted:
-        radius += 1
+    for radius in range(1, RINGS + 1):
+        if found >= wanted:
+            return total
         on_ring = 0
-        for r in range(max(row - radius, 0), min(row + radius, height - 1) + 1):
-            aside = radius - abs(r - row)
-            if column + aside < width:
-                on_ring += crowd[r, column + aside]
-            if 0 < aside <= column:
-                on_ring += crowd[r, column - aside]
+        for step in range(radius):  # along the four sides of the ring at once
+            on_ring += crowd[index(row - radius + step), index(column + step)]
+            on_ring += crowd[index(row + step), index(column + radius - step)]
+            on_ring += crowd[index(row + radius - step), index(column - step)]
+            on_ring += crowd[index(row - step), index(column - radius + step)]
         total += radius * min(on_ring, wanted - found)
         found += on_ring
-    return total
+    return total if found >= wanted else -1
 
 
 @kernel
-def score_points(
-    points: np.ndarray, archive: ArchiveArrays, k: int, taxicab: bool, nearest: np.ndarray, scores: np.ndarray
-) -> None:
-    """Score points in order, offering each to the archive. `nearest` (k places) is worked in."""
-    n = len(points)
-    order = np.argsort(points[:, 0])
-    place = np.empty(n, dtype=np.int64)  # of each point in that order
-    population = np.empty((points.shape[1], n))
+def _sum_over_all(
+    row: int, column: int, cells: np.ndarray, archived_points: np.ndarray, archived_size: int, wanted: int
+) -> int:
+    """The same sum, with the distance of every point measured."""
+    n = len(cells)
+    distances = np.empty(n + archived_size)
     for j in range(n):
-        place[order[j]] = j
-        population[:, j] = points[order[j]]
-    for i in range(n):
-        size = archive.counts[0]
-        nearest[:] = np.inf
-        here = place[i]
-        _nearest_among(points[i], population, here, n, here, taxicab, nearest)
-        middle = np.searchsorted(archive.points[0, :size], points[i, 0])
-        _nearest_among(points[i], archive.points, middle, size, -1, taxicab, nearest)
-        total = 0.0
-        for j in range(min(k, n - 1 + size)):  # in ascending order
-            total += nearest[j] if taxicab else np.sqrt(nearest[j])
-        scores[i] = total / k
-        offer(archive, points[i], scores[i])
+        distances[j] = abs(cells[j, 0] - row) + abs(cells[j, 1] - column)
+    for j in range(archived_size):
+        distances[n + j] = abs(archived_points[0, j] - row) + abs(archived_points[1, j] - column)
+    nearest = np.empty(max(len(distances), wanted + 1))
+    _smallest(distances, len(distances), wanted + 1, nearest)  # with the point itself, at a distance of 0
+    total = 0.0
+    for j in range(wanted + 1):
+        total += nearest[j]
+    return int(total)
+
+
+class Grid(NamedTuple):
+    """Rows and columns of cells over the first two coordinates; what lies outside belongs to the outermost cells."""
+
+    low: tuple[float, float]  # where the first cells begin
+    scale: tuple[float, float]  # cells in a unit of length
+    sides: tuple[int, int]  # rows and columns
+
+
+PER_CELL = 4.0  # points in a cell, on average
+SLACK = 1.35  # times as many neighbours are looked for at first as are wanted, so that there are rarely too few
+FEW = 256  # so few values are put in order by comparing all with all
+NEARLY_NOTHING = 1e-150  # an extent below which points count as one: with FARTHEST over it we are still in numbers
 
 
 @kernel
-def _nearest_among(
-    point: np.ndarray,
-    others: np.ndarray,
-    middle: int,
-    size: int,
-    itself: int,
-    taxicab: bool,
-    nearest: np.ndarray,
-) -> None:
-    """Update the ascending distances `nearest` with those to the first `size` of `others`, but for `itself`.
+def score_points(points: np.ndarray, archive: ArchiveArrays, k: int, taxicab: bool, scores: np.ndarray) -> None:
+    """Score points in order, offering each to the archive."""
+    n, dimensions = points.shape
+    if n == 0:
+        return
+    counts, capacity = archive.counts, len(archive.scores)
+    grid = _grid_over(points, n + counts[0])
+    most_newcomers = 1 + int(math.sqrt(n + capacity))
+    # population and archive, cell by cell; then who entered the archive since, in any order
+    members = np.zeros((max(dimensions, 2), n + capacity + most_newcomers))  # points on a line get a second coordinate
+    ends = np.empty(grid.sides[0] * grid.sides[1] + 1, dtype=np.int64)  # a 0, and where in `members` each cell ends
+    places = np.empty(capacity, dtype=np.int64)  # where in `members` the archive's points are
+    size = in_cells = _sort_into_cells(grid, points, archive.points, counts[0], members, ends, places)
+    reach = _even_reach(grid, (k + 1) / size)
+    distances = np.empty(members.shape[1])
+    ascending = np.empty(members.shape[1])
+    point = np.zeros(len(members))
+    threshold = threshold_of(archive)
+    for i in range(n):
+        for axis in range(dimensions):
+            point[axis] = points[i, axis]
+        # the point finds itself, too, at a distance of 0, which adds nothing to the sum
+        wanted = min(k, n - 1 + counts[0]) + 1
+        found = _look_around(point, grid, members, ends, in_cells, size, wanted, reach, taxicab, distances)
+        _smallest(distances, found, wanted, ascending)
+        total = 0.0
+        for j in range(wanted):
+            total += ascending[j] if taxicab else math.sqrt(ascending[j])
+        scores[i] = total / k
+        if scores[i] > threshold:
+            place = vacate(archive)
+            if place < counts[0]:
+                members[0, places[place]] = np.nan  # which is near to nothing
+            enter(archive, place, points[i], scores[i])
+            threshold = threshold_of(archive)
+            places[place] = size
+            for axis in range(dimensions):
+                members[axis, size] = points[i, axis]
+            size += 1
+            if size - in_cells == most_newcomers:
+                size = in_cells = _sort_into_cells(grid, points, archive.points, counts[0], members, ends, places)
 
-    `others`, of shape (dimensions, at least size), is sorted by its first row; `middle` is where `point` belongs in it.
-    """
-    k = len(nearest)
-    farthest = nearest[k - 1]
-    for direction in (1, -1):
-        j = middle if direction > 0 else middle - 1
-        while 0 <= j < size:
-            distance = _along_axis(others[0, j] - point[0], taxicab)
-            if distance >= farthest:
-                break
-            for axis in range(1, len(point)):
-                distance += _along_axis(others[axis, j] - point[axis], taxicab)
-            if distance < farthest and j != itself:
-                for place in range(k - 1, 0, -1):  # no branch: the processor would often guess it wrong
-                    nearest[place] = min(nearest[place], max(nearest[place - 1], distance))
-                nearest[0] = min(nearest[0], distance)
-                farthest = nearest[k - 1]
-            j += direction
+
+@kernel
+def _grid_over(points: np.ndarray, size: int) -> Grid:
+    """A grid over the range of these points, for so many in all."""
+    low, high = points[0].copy(), points[0].copy()
+    for i in range(1, len(points)):
+        for axis in range(points.shape[1]):
+            low[axis] = min(low[axis], points[i, axis])
+            high[axis] = max(high[axis], points[i, axis])
+    cells = 1 + int(math.sqrt(size / PER_CELL))  # in a row or column
+    first = _axis(low[0], high[0], cells)
+    second = _axis(low[1], high[1], cells) if points.shape[1] > 1 else _axis(0.0, 0.0, cells)
+    return Grid((first[0], second[0]), (first[1], second[1]), (first[2], second[2]))
+
+
+@kernel
+def _axis(low: float, high: float, cells: int) -> tuple[float, float, int]:
+    """Begin, scale and side of one axis of a grid."""
+    extent = high - low
+    return (low, cells / extent, cells) if extent > NEARLY_NOTHING else (low, 0.0, 1)
+
+
+@kernel
+def _cell_along(grid: Grid, axis: int, coordinate: float) -> int:
+    """The row (axis 0) or column (axis 1) in which a coordinate lies."""
+    return int(min(max((coordinate - grid.low[axis]) * grid.scale[axis], 0.0), grid.sides[axis] - 1.0))
+
+
+@kernel
+def _sort_into_cells(
+    grid: Grid,
+    points: np.ndarray,
+    archived_points: np.ndarray,
+    archived_size: int,
+    members: np.ndarray,
+    ends: np.ndarray,
+    places: np.ndarray,
+) -> int:
+    """Fill `members`, `ends` and `places` of `score_points`. How many members are there?"""
+    n, dimensions = points.shape
+    size = n + archived_size
+    unsorted = np.zeros((len(members), size))
+    for axis in range(dimensions):
+        for j in range(n):
+            unsorted[axis, j] = points[j, axis]
+        for j in range(archived_size):
+            unsorted[axis, n + j] = archived_points[axis, j]
+    cells = np.empty(size, dtype=np.int64)
+    gaps = np.zeros(len(ends), dtype=np.int64)  # where the next point of each cell goes
+    for j in range(size):
+        cells[j] = _cell_along(grid, 0, unsorted[0, j]) * grid.sides[1] + _cell_along(grid, 1, unsorted[1, j])
+        gaps[cells[j] + 1] += 1
+    ends[0] = 0
+    for cell in range(1, len(ends)):
+        gaps[cell] += gaps[cell - 1]
+        ends[cell] = gaps[cell]
+    for j in range(size):
+        place = gaps[cells[j]]
+        gaps[cells[j]] += 1
+        for axis in range(dimensions):
+            members[axis, place] = unsorted[axis, j]
+        if j >= n:
+            places[j - n] = place
+    return size
+
+
+@kernel
+def _even_reach(grid: Grid, share: float) -> float:
+    """How far around a point this share of all points is, and some more, where they are spread evenly."""
+    height = grid.sides[0] / grid.scale[0] if grid.scale[0] > 0 else 0.0
+    width = grid.sides[1] / grid.scale[1] if grid.scale[1] > 0 else 0.0
+    # in the plane the area of a circle; on a line its length
+    return max(math.sqrt(SLACK * share * height * width / math.pi), SLACK * share * max(height, width) / 2)
+
+
+@kernel
+def _look_around(
+    point: np.ndarray,
+    grid: Grid,
+    members: np.ndarray,
+    ends: np.ndarray,
+    in_cells: int,
+    size: int,
+    wanted: int,
+    reach: float,
+    taxicab: bool,
+    distances: np.ndarray,
+) -> int:
+    """Put distances of members to the point into `distances`, the `wanted` smallest among them. How many are there?"""
+    rows, columns = grid.sides
+    while True:
+        margin = reach * (1 + 1e-9)  # the borders of cells are rounded: none is to be missed for that
+        top, bottom = _cell_along(grid, 0, point[0] - margin), _cell_along(grid, 0, point[0] + margin)
+        left, right = _cell_along(grid, 1, point[1] - margin), _cell_along(grid, 1, point[1] + margin)
+        is_all = (bottom - top + 1) * (right - left + 1) == rows * columns
+        limit = np.inf if is_all else _along_axis(reach, taxicab)
+        found = _measure(point, members, in_cells, size, taxicab, limit, distances, 0)
+        for row in range(top, bottom + 1):
+            start, end = ends[row * columns + left], ends[row * columns + right + 1]
+            found = _measure(point, members, start, end, taxicab, limit, distances, found)
+        if is_all or found >= wanted:
+            return found
+        reach *= max(1.25, math.sqrt(wanted / (found + 1)))
+
+
+@kernel
+def _measure(
+    point: np.ndarray,
+    members: np.ndarray,
+    start: int,
+    end: int,
+    taxicab: bool,
+    limit: float,
+    distances: np.ndarray,
+    found: int,
+) -> int:
+    """Append the distances of members[:, start:end] to the point, but for those above the limit. How many are there?"""
+    x, y = point[0], point[1]
+    for j in range(index(start), index(end)):
+        distance = _along_axis(members[0, j] - x, taxicab) + _along_axis(members[1, j] - y, taxicab)
+        for axis in range(2, len(point)):
+            distance += _along_axis(members[axis, j] - point[axis], taxicab)
+        distances[index(found)] = distance  # no branch: the processor would often guess it wrong
+        found += distance <= limit
+    return found
 
 
 @kernel
@@ -253,52 +411,79 @@ def _along_axis(difference: float, taxicab: bool) -> float:
 
 
 @kernel
-def offer(archive: ArchiveArrays, point: np.ndarray, score: float) -> bool:
-    """Let a point into the archive where there is room, or where it scores above the lowest. Has it entered?"""
-    points, scores, entry, counts = archive
-    capacity = len(scores)
-    size, entered, lowest = counts
+def _smallest(values: np.ndarray, size: int, wanted: int, ascending: np.ndarray) -> None:
+    """Put the `wanted` smallest of the first `size` values, none of them negative, in order into `ascending`."""
+    if size > FEW:  # one after the other to its place among the smallest so far
+        for j in range(wanted):
+            ascending[j] = np.inf
+        for i in range(size):
+            if values[i] < ascending[wanted - 1]:
+                j = wanted - 1
+                while j > 0 and ascending[j - 1] > values[i]:
+                    ascending[j] = ascending[j - 1]
+                    j -= 1
+                ascending[j] = values[i]
+        return
+    for j in range(size):
+        ascending[j] = -1.0
+    for i in range(size):
+        value = values[i]
+        smaller = 0  # as many as there are tell its place: no branch for the processor to guess wrong
+        for j in range(size):
+            smaller += values[j] < value
+        ascending[smaller] = value
+    for j in range(1, size):  # equal ones went to the same place
+        ascending[j] = max(ascending[j], ascending[j - 1])
+
+
+@kernel
+def threshold_of(archive: ArchiveArrays) -> float:
+    """A point enters the archive if it scores above this: anything while there is room, then the lowest in it."""
+    size, capacity = archive.counts[0], len(archive.scores)
     if size < capacity:
-        gap = size
-        size += 1
-    elif capacity > 0 and score > scores[lowest]:
-        gap = lowest
-    else:
-        return False
-    # the gap moves to where the newcomer belongs in the order of the first coordinate
-    first_coordinate = points[0]
-    target = gap
-    while target > 0 and first_coordinate[target - 1] > point[0]:
-        target -= 1
-    if target == gap:
-        while target + 1 < size and first_coordinate[target + 1] < point[0]:
-            target += 1
+        return -1.0
+    return archive.scores[archive.heap[0]] if capacity > 0 else np.inf
+
+
+@kernel
+def vacate(archive: ArchiveArrays) -> int:
+    """The place in the archive for the next point that enters: a free one, or that of the lowest score."""
+    size = archive.counts[0]
+    return size if size < len(archive.scores) else archive.heap[0]
+
+
+@kernel
+def enter(archive: ArchiveArrays, place: int, point: np.ndarray, score: float) -> None:
+    """Let a point into the archive, at the place that `vacate` told."""
+    points, scores, entry, heap, counts = archive
     for axis in range(len(point)):
-        _move(points[axis], gap, target, point[axis])
-    _move(scores, gap, target, score)
-    _move(entry, gap, target, entered)
-    counts[0] = size
-    counts[1] = entered + 1
-    if size == capacity:
-        counts[2] = _lowest_and_oldest(scores, entry)
-    return True
+        points[axis, place] = point[axis]
+    scores[place] = score
+    entry[place] = counts[1]
+    counts[1] += 1
+    if place == counts[0]:  # it was free: the point rises from the end of the heap
+        node = place
+        while node > 0 and score < scores[heap[(node - 1) // 2]]:
+            heap[node] = heap[(node - 1) // 2]
+            node = (node - 1) // 2
+        counts[0] += 1
+    else:  # it was that of the lowest: the point sinks from the top
+        node = 0
+        child = _lower_child(archive, node)
+        while child >= 0 and scores[heap[child]] <= score:  # it is the youngest of equals
+            heap[node] = heap[child]
+            node = child
+            child = _lower_child(archive, node)
+    heap[node] = place
 
 
 @kernel
-def _move(row: np.ndarray, gap: int, target: int, value) -> None:
-    """Shift what lies between the gap and the target by one into the gap, and put the value at the target."""
-    for place in range(gap, target):
-        row[place] = row[place + 1]
-    for place in range(gap, target, -1):
-        row[place] = row[place - 1]
-    row[target] = value
-
-
-@kernel
-def _lowest_and_oldest(scores: np.ndarray, entry: np.ndarray) -> int:
-    """The place of the lowest score, that of the oldest on a tie."""
-    place = 0
-    for i in range(1, len(scores)):
-        if scores[i] < scores[place] or (scores[i] == scores[place] and entry[i] < entry[place]):
-            place = i
-    return place
+def _lower_child(archive: ArchiveArrays, node: int) -> int:
+    """The child of a node of the heap with the lower score, the older one on a tie; -1 where it has none."""
+    _, scores, entry, heap, counts = archive
+    left, right = 2 * node + 1, 2 * node + 2
+    if right >= counts[0]:
+        return left if left < counts[0] else -1
+    one, other = heap[left], heap[right]
+    is_other = scores[other] < scores[one] or (scores[other] == scores[one] and entry[other] < entry[one])
+    return right if is_other else left

@@ -91,13 +91,26 @@ def breed(
             if not is_elite[i] and (fittest < 0 or fitness[i] > fitness[fittest]):
                 fittest = i
         is_elite[fittest] = True
-        offspring[place] = genomes[fittest]
+        _copy(genomes, fittest, offspring, place)
     for place in range(rates.elites, len(genomes), 2):
-        pair = offspring[place : place + 2]
-        pair[0] = genomes[tournament(fitness, rates.tournament, rng)]
-        pair[1] = genomes[tournament(fitness, rates.tournament, rng)]
+        _copy(genomes, tournament(fitness, rates.tournament, rng), offspring, place)
+        _copy(genomes, tournament(fitness, rates.tournament, rng), offspring, place + 1)
         if rng.random() < rates.crossover:
-            crossover(pair[0], pair[1], rng)
-        for genome in pair:
+            crossover(offspring[place], offspring[place + 1], rng)
+        for child in range(place, place + 2):
             if rng.random() < rates.mutation:
-                mutate(genome, rates.low, rates.high, rng)
+                mutate(offspring[child], rates.low, rates.high, rng)
+
+
+@kernel
+def copy_genomes(genomes: np.ndarray, into: np.ndarray) -> None:
+    """Copy all genomes into another population of the same shape."""
+    for i in range(len(genomes)):
+        _copy(genomes, i, into, i)
+
+
+@kernel
+def _copy(genomes: np.ndarray, i: int, into: np.ndarray, place: int) -> None:
+    """Copy one genome, gene by gene: to copy rows as wholes takes numba seconds more to compile."""
+    for gene in range(genomes.shape[1]):
+        into[place, gene] = genomes[i, gene]

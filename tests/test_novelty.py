@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from safe import NoveltyArchive
-from safe.novelty import archived, empty_archive, score_cells
+from safe.novelty import RINGS, archived, empty_archive, empty_crowd, score_cells
 from tests import oracle
 
 DATA = Path(__file__).parent / "data"
@@ -30,7 +30,7 @@ def test_every_reference_score(points, scores, metric):
 def test_every_reference_score_by_counting_cells():
     with np.load(DATA / "novelty.npz") as reference:
         generations, expected = reference["endpoints"].astype(np.int64), reference["endpoint_novelty"]
-    archive, crowd = empty_archive(1000, 2), np.zeros((100, 100), dtype=np.int32)
+    archive, crowd = empty_archive(1000, 2), empty_crowd((100, 100))
     for cells, scores in zip(generations, expected, strict=True):
         got = np.empty(len(cells))
         score_cells(cells, archive, crowd, 15, got)
@@ -44,7 +44,7 @@ def test_every_reference_score_by_counting_cells():
 )
 def test_counting_cells_gives_the_scores_and_the_archive_of_measuring_points(generations, capacity, k):
     points, cells = NoveltyArchive(capacity, k), empty_archive(capacity, 2)
-    crowd = np.zeros((8, 8), dtype=np.int32)
+    crowd = empty_crowd((8, 8))
     for generation in generations:
         scores = np.empty(len(generation))
         score_cells(generation, cells, crowd, k, scores)
@@ -52,7 +52,7 @@ def test_counting_cells_gives_the_scores_and_the_archive_of_measuring_points(gen
         assert archived(cells)[0].tolist() == points.points.tolist() or len(points) == 0
         assert archived(cells)[1].tolist() == points.scores.tolist()
         expected = np.zeros_like(crowd)
-        np.add.at(expected, tuple(archived(cells)[0].astype(int).T), 1)
+        np.add.at(expected, tuple(archived(cells)[0].astype(int).T + RINGS), 1)
         assert (crowd == expected).all()
 
 
@@ -84,6 +84,55 @@ def test_scores_and_archive_are_those_of_the_oracle(generations, capacity, k, me
             for entry, (point, score) in enumerate(zip(archive.points, archive.scores, strict=True))
         ]
         expected.entered = len(expected.members)
+
+
+def far_apart(rng):
+    """Mostly in one place, a few far away: neither is what a grid of even cells is made for."""
+    return np.concatenate([rng.normal(0, 1e-9, (300, 2)), rng.uniform(-1e6, 1e6, (60, 2))])
+
+
+@pytest.mark.parametrize("metric", DISTANCES)
+@pytest.mark.parametrize(
+    "draw",
+    [
+        lambda rng: rng.random((360, 2)),
+        lambda rng: rng.integers(0, 4, (360, 2)).astype(float),  # hundreds of doubles of each point
+        lambda rng: np.stack([rng.random(360), np.zeros(360)], axis=1),
+        lambda rng: np.ones((360, 2)),
+        lambda rng: rng.random((360, 5)),
+        far_apart,
+    ],
+    ids=["even", "doubles", "on a line", "in one place", "in five dimensions", "far apart"],
+)
+def test_scores_do_not_depend_on_how_points_are_spread(draw, metric):
+    rng = np.random.default_rng(1)
+    archive = NoveltyArchive(capacity=400, k=7, metric=metric)
+    for _ in range(3):
+        points = rng.permuted(draw(rng), axis=0)
+        others = np.concatenate([points, archive.points]) if len(archive) else points
+        measure = {"taxicab": lambda d: np.abs(d).sum(axis=1), "euclidean": lambda d: np.sqrt((d * d).sum(axis=1))}
+        first = np.sort(measure[metric](others - points[0]))[1:8].sum() / 7
+        before = oracle.Archive(400)
+        before.members = [
+            (s, i, p.tolist()) for i, (p, s) in enumerate(zip(archive.points, archive.scores, strict=True))
+        ]
+        before.entered = len(before.members)
+        scores = archive.score(points)
+        assert scores[0] == pytest.approx(first, rel=1e-12)
+        np.testing.assert_allclose(
+            scores, oracle.novelty(points.tolist(), before, 7, DISTANCES[metric]), rtol=1e-12, atol=1e-12
+        )
+
+
+def test_cells_far_apart_have_the_scores_of_points():
+    rng = np.random.default_rng(1)
+    cells, points, crowd = empty_archive(60, 2), NoveltyArchive(60, k=4), empty_crowd((900, 700))
+    for _ in range(4):
+        generation = rng.integers(0, (900, 700), (30, 2))
+        scores = np.empty(30)
+        score_cells(generation, cells, crowd, 4, scores)
+        assert scores.tolist() == points.score(generation).tolist()
+        assert archived(cells)[0].tolist() == points.points.tolist()
 
 
 @given(
@@ -142,7 +191,7 @@ def test_bad_archives(arguments, complaint):
         NoveltyArchive(**arguments)
 
 
-@pytest.mark.parametrize("points", [[1, 2], [[1, np.nan]], [["a", "b"]], [[1, 2], [3]], [[1, 2, 3]]])
+@pytest.mark.parametrize("points", [[1, 2], [[1, np.nan]], [["a", "b"]], [[1, 2], [3]], [[1, 2, 3]], [[1, 1e101]]])
 def test_bad_points(points):
     archive = NoveltyArchive()
     archive.score([[0, 0]])
