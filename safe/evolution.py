@@ -23,6 +23,7 @@ Both call `advance`, and give the same run, bit for bit.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 from typing import NamedTuple
@@ -35,6 +36,7 @@ from safe.kernel import kernel
 from safe.maze import Maze, MazeArrays, load_maze
 from safe.novelty import ArchiveArrays, archived, empty_archive, empty_crowd, score_cells, score_points
 from safe.operators import Breeding, breed, copy_genomes, draw_genomes
+from safe.progress import while_compiling
 from safe.robot import WEIGHTS, walk_all, walk_space
 
 RULES = 1  # raised whenever a change alters what any run gives
@@ -105,9 +107,24 @@ def evolve(maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters:
     >>> run.success, run.generation, run.evaluations
     (False, 2, 600)
     """
+    return evolve_unless(np.zeros(1, dtype=bool), maze, algorithm, seed, parameters)
+
+
+def evolve_unless(
+    stop: np.ndarray, maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters: Parameters
+) -> Run | None:
+    """`evolve`, for as long as the single value of `stop` is False; None where another thread made it True before."""
+    compile_kernels()
     state, settings, rng = _start(maze, algorithm, seed, parameters)
-    drive(state, settings, rng)
-    return _run(state, settings)
+    return _run(state, settings) if drive(state, settings, rng, stop) else None
+
+
+@functools.cache
+def compile_kernels() -> None:
+    """Compile what a run takes, or load what is compiled: then no run waits for it, and none counts it as its time."""
+    parameters = Parameters(population=4, objectives=4, generations=2, archive=2)
+    with while_compiling():
+        drive(*_start(Maze.from_drawing("S.G"), "safe", 0, parameters), np.zeros(1, dtype=bool))
 
 
 def generations(
@@ -123,6 +140,7 @@ def generations(
     1 400
     2 600
     """
+    compile_kernels()
     return _step_by_step(*_start(maze, algorithm, seed, parameters))  # arguments are checked now, not at the first step
 
 
@@ -278,10 +296,12 @@ GOAL, NOVELTY = COMPONENTS.index("1 / distance"), COMPONENTS.index("novelty")
 
 
 @kernel
-def drive(state: State, settings: Settings, rng: np.random.Generator) -> None:
-    """Run to the end."""
+def drive(state: State, settings: Settings, rng: np.random.Generator, stop: np.ndarray) -> bool:
+    """Run to the end, or until another thread sets `stop`. Has the end been reached?"""
     while advance(state, settings, rng):
-        pass
+        if stop[0]:
+            return False
+    return True
 
 
 @kernel

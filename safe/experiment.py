@@ -11,23 +11,26 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import sys
 import time
+from collections import deque
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from functools import cached_property
+from queue import SimpleQueue
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
-from tqdm import tqdm
 
 from safe import checks
 from safe.algorithms import COEFFICIENTS, Algorithm, Parameters, get_algorithm
-from safe.evolution import RULES, Generation, Run, evolve, generations
+from safe.evolution import RULES, Generation, Run, compile_kernels, evolve, evolve_unless, generations
 from safe.maze import Maze, load_maze
+from safe.progress import bar as progress_bar
 from safe.robot import WEIGHTS
-from safe.store import Store
+from safe.store import Store, StoredExperiment, StoredRun, origin
 
 WEIGHT_COLUMNS = [f"p{i}" for i in range(1, WEIGHTS + 1)]
 
@@ -164,14 +167,16 @@ def run(
     1    1    False         1000
     2    2    False         1000
     """
+    if executor is not None and not isinstance(executor, Executor):
+        raise ValueError(f"executor must be a concurrent.futures.Executor; was {checks.shown(executor)}")
     with Store(store) as results:
-        number = results.experiment(
+        stored = results.experiment(
             experiment.content, experiment.digest, experiment.algorithm.name, experiment.maze.name
         )
-        missing = sorted(set(range(experiment.runs)) - results.finished(number))
+        missing = sorted(set(range(experiment.runs)) - results.finished(stored))
         if missing:
-            _compute(experiment, number, missing, results, executor, progress)
-        return _table(experiment, results.runs(number, experiment.runs))
+            _compute(experiment, stored, missing, results, executor, progress)
+        return _table(experiment, results.runs(stored, experiment.runs))
 
 
 def run_all(
@@ -180,6 +185,7 @@ def run_all(
     runs: int,
     seed: int,
     store: str | os.PathLike | None = None,
+    executor: Executor | None = None,
 ) -> dict[Experiment, pd.DataFrame]:
     """The results of every algorithm on every maze, maze by maze; arguments and errors are those of Experiment and run.
 
@@ -190,71 +196,194 @@ def run_all(
     [('maze1', 1), ('maze2', 1)]
     """
     experiments = [Experiment(algorithm, maze, runs, seed) for maze in mazes for algorithm in algorithms]
-    return {experiment: run(experiment, store) for experiment in experiments}
+    return {experiment: run(experiment, store, executor) for experiment in experiments}
+
+
+def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, progress: bool = True) -> pd.DataFrame:
+    """Make some of the runs in a store again, and compare them with what is stored, to the last bit.
+
+    The checksums of all runs are looked at, too. Runs made by rules that have since changed are left out.
+
+    Parameters
+    ----------
+    store : path
+        The store.
+    sample : int
+        How many runs, drawn at random from all experiments; all where there are no more.
+    seed : int, optional
+        Of the draw; by default every time another.
+    progress : bool
+        As in `run`.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row for each run that was made again and is the same: algorithm, maze, seed, run, and its outcome.
+
+    Raises
+    ------
+    ValueError
+        Where the file is no store, or a run is not what its experiment makes.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     table = run(Experiment("standard", "maze1", 3, parameters=Parameters(generations=2)), f"{folder}/store")
+    ...     len(verify(f"{folder}/store"))
+    3
+    """
+    sample = checks.integer("sample", sample, 1)
+    draw = np.random.default_rng(None if seed is None else checks.integer("seed", seed, 0))
+    with Store(store, must_exist=True) as results:
+        stored = [
+            (experiment, kept)
+            for experiment in results.experiments()
+            if experiment.content["rules"] == RULES
+            for kept in results.runs(experiment)
+        ]
+    same = []
+    chosen = draw.choice(len(stored), min(sample, len(stored)), replace=False)
+    for which in progress_bar("verifying", iterable=chosen, unit="run", **({} if progress else {"disable": True})):
+        found, kept = stored[which]
+        experiment = _as_experiment(found)
+        remade = evolve(
+            experiment.maze, experiment.algorithm, experiment.seed_sequence(kept.number), experiment.parameters
+        )
+        if remade != kept.run:
+            raise ValueError(
+                f"store must hold what its experiments make; in {store} run {kept.number} of {found.algorithm} on "
+                f"{found.maze}, seed {experiment.seed}, is {checks.shown(kept.run)}, and made again {remade}"
+            )
+        same.append((found.algorithm, found.maze, experiment.seed, kept.number, remade.success, remade.generation))
+    return pd.DataFrame(same, columns=["algorithm", "maze", "seed", "run", "success", "generation"])
+
+
+def _as_experiment(stored: StoredExperiment) -> Experiment:
+    content = stored.content
+    experiment = Experiment(
+        Algorithm(stored.algorithm, **content["algorithm"]),
+        Maze.from_drawing(content["maze"], stored.maze),
+        seed=content["seed"],
+        parameters=Parameters(**content["parameters"]),
+    )
+    if experiment.digest != stored.digest:
+        raise ValueError(f"store must hold experiments of this version; was {stored.algorithm} on {stored.maze}")
+    return experiment
 
 
 def _compute(
     experiment: Experiment,
-    number: int,
+    stored: StoredExperiment,
     missing: list[int],
     results: Store,
     executor: Executor | None,
     progress: bool,
 ) -> None:
-    """Compute the missing runs, and keep each as it finishes."""
+    """Compute the missing runs, and keep them as they come back."""
+    compile_kernels()
     pool = executor if executor is not None else ThreadPoolExecutor(_cores())
-    batch = results.batch(number)
-    bar = tqdm(
-        desc=f"{experiment.algorithm.name} on {experiment.maze.name}",
+    stop = np.zeros(1, dtype=bool)  # seen by threads; other processes have a copy, and finish what they are at
+    waiting = deque(missing)
+    in_flight: set[Future] = set()
+    back: SimpleQueue[Future] = SimpleQueue()
+    runs, seconds, successes = 0, 0.0, results.successes(stored, experiment.runs)
+
+    def keep(future: Future) -> None:
+        nonlocal runs, seconds, successes
+        batch = future.result()
+        if batch.rules != RULES:
+            raise ValueError(f"executor must compute by the rules {RULES} of this version; was {batch.rules}")
+        results.add(stored, batch.origin, batch.runs)
+        if batch.failure is not None:
+            raise batch.failure
+        runs += len(batch.runs)
+        seconds += sum(duration for _, _, duration in batch.runs)
+        successes += sum(outcome.success for _, outcome, _ in batch.runs)
+        bar.set_postfix(successes=successes, refresh=False)
+        bar.update(len(batch.runs))
+
+    def send() -> None:
+        """Batches of one run until it is known how long a run takes."""
+        while waiting and len(in_flight) < (MOST_IN_FLIGHT if runs else FIRST_IN_FLIGHT):
+            size = _batch_size(len(waiting), seconds / runs) if runs else 1
+            numbers = [waiting.popleft() for _ in range(size)]
+            future = pool.submit(_make, experiment, numbers, stop)
+            in_flight.add(future)
+            future.add_done_callback(back.put)
+
+    with progress_bar(
+        f"{experiment.algorithm.name} on {experiment.maze.name}",
         total=experiment.runs,
         initial=experiment.runs - len(missing),
         unit="run",
-        disable=not (progress and _is_watched()),
-        mininterval=0.5,
-    )
-    pending: dict[Future, int] = {}
-    successes = sum(outcome.success for _, outcome, _ in results.runs(number, experiment.runs))
-
-    def keep(future: Future) -> None:
-        nonlocal successes
-        outcome, seconds = future.result()
-        results.add(number, batch, pending[future], outcome, seconds)
-        del pending[future]
-        successes += outcome.success
-        bar.set_postfix(successes=successes, refresh=False)
-        bar.update()
-
-    try:
-        for r in missing:
-            task = experiment.maze, experiment.algorithm, experiment.seed_sequence(r), experiment.parameters
-            pending[pool.submit(_timed_run, *task)] = r
-        for future in as_completed(list(pending)):
-            keep(future)
-    except BaseException as error:
-        for future in list(pending):
-            if future.done() and not future.cancelled() and future.exception() is None:
+        **({} if progress else {"disable": True}),
+    ) as bar:
+        try:
+            send()
+            while in_flight:
+                future = back.get()
                 keep(future)
-            future.cancel()
-        kept = len(results.finished(number).intersection(range(experiment.runs)))
-        error.add_note(
-            f"{kept} of {experiment.runs} runs are kept in {results.path}; "
-            "the same experiment asked for again computes the rest"
-            if results.path is not None
-            else f"{kept} of {experiment.runs} runs were finished; without a store they are not kept"
-        )
-        raise
-    finally:
-        bar.close()
-        if executor is None:
-            pool.shutdown(cancel_futures=True)
+                in_flight.discard(future)  # not before: what is interrupted is kept below
+                send()
+        except BaseException as error:
+            stop[0] = True
+            for future in in_flight:
+                future.cancel()
+            if executor is None:
+                pool.shutdown()
+            with suppress(ValueError):  # of the store, where that is what has gone wrong
+                for future in in_flight:
+                    if future.done() and not future.cancelled() and future.exception() is None:
+                        results.add(stored, future.result().origin, future.result().runs)
+            kept = len(results.finished(stored).intersection(range(experiment.runs)))
+            error.add_note(
+                f"{kept} of {experiment.runs} runs are kept in {results.path}; "
+                "the same experiment asked for again computes the rest"
+                if results.path is not None
+                else f"{kept} of {experiment.runs} runs were finished; without a store they are not kept"
+            )
+            raise
+        finally:
+            if executor is None:
+                pool.shutdown()
 
 
-def _timed_run(
-    maze: Maze, algorithm: Algorithm, seed: np.random.SeedSequence, parameters: Parameters
-) -> tuple[Run, float]:
-    """One run, and how many seconds it took."""
-    started = time.perf_counter()
-    return evolve(maze, algorithm, seed, parameters), time.perf_counter() - started
+FIRST_IN_FLIGHT = 16
+MOST_IN_FLIGHT = 2000  # batches: enough for a thousand cores, and no burden to one
+BATCH_SECONDS = 0.5  # of work, next to which sending it is little
+
+
+def _batch_size(waiting: int, seconds: float) -> int:
+    """How many runs of so many seconds each are sent at once; fewer towards the end, so that all cores end together."""
+    return max(1, min(int(BATCH_SECONDS / seconds), waiting // 32))
+
+
+class Batch(NamedTuple):
+    """Finished runs, and what made them."""
+
+    rules: int
+    origin: dict[str, str | None]
+    runs: list[tuple[int, Run, float]]  # number, outcome, seconds
+    failure: Exception | None  # that of the run after these
+
+
+def _make(experiment: Experiment, numbers: list[int], stop: np.ndarray) -> Batch:
+    """Some runs of an experiment, wherever the executor sends them; those before `stop` where it is set meanwhile."""
+    compile_kernels()
+    runs, failure = [], None
+    for number in numbers:
+        started = time.perf_counter()
+        seed = experiment.seed_sequence(number)
+        try:
+            outcome = evolve_unless(stop, experiment.maze, experiment.algorithm, seed, experiment.parameters)
+        except Exception as error:
+            failure = error
+            break
+        if outcome is None:
+            break
+        runs.append((number, outcome, time.perf_counter() - started))
+    return Batch(RULES, origin(), runs, failure)
 
 
 def controller_of(row: pd.Series) -> np.ndarray:
@@ -262,12 +391,12 @@ def controller_of(row: pd.Series) -> np.ndarray:
     return row[WEIGHT_COLUMNS].to_numpy(dtype=np.float64)
 
 
-def _table(experiment: Experiment, runs) -> pd.DataFrame:
+def _table(experiment: Experiment, runs: list[StoredRun]) -> pd.DataFrame:
     coefficients = [] if experiment.algorithm.is_random_search else COEFFICIENTS
     columns = ["run", "success", "generation", "distance", *WEIGHT_COLUMNS, *coefficients, "evaluations", "seconds"]
     rows = [
-        (r, o.success, o.generation, o.distance, *o.controller, *o.coefficients, o.evaluations, seconds)
-        for r, o, seconds in runs
+        (number, o.success, o.generation, o.distance, *o.controller, *o.coefficients, o.evaluations, seconds)
+        for number, o, seconds, _ in runs
     ]
     return pd.DataFrame(rows, columns=columns)
 
@@ -275,11 +404,3 @@ def _table(experiment: Experiment, runs) -> pd.DataFrame:
 def _cores() -> int:
     """How many cores this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
-def _is_watched() -> bool:
-    """Does what this process writes to stderr reach a person: a terminal, or the page of a notebook?
-
-    tqdm's own switch, TQDM_DISABLE, says that it does not.
-    """
-    return not os.environ.get("TQDM_DISABLE") and (sys.stderr.isatty() or "ipykernel" in sys.modules)

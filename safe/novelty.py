@@ -184,7 +184,7 @@ def score_cells(cells: np.ndarray, archive: ArchiveArrays, crowd: np.ndarray, k:
 
 @kernel
 def _sum_over_rings(row: int, column: int, crowd: np.ndarray, wanted: int) -> int:
-    """The sum of the distances from a point in this cell to the `wanted` nearest others; -1 if they are beyond the rings."""
+    """The summed distances from a point to the `wanted` nearest others; -1 if they are not all within the rings."""
     found = crowd[row, column] - 1  # without the point itself
     total = 0
     for radius in range(1, RINGS + 1):

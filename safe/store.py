@@ -1,23 +1,30 @@
 """The results store: one SQLite file with every run that was ever finished, and where it came from.
 
     experiments   one row each: the content that identifies it, as JSON, and the names it was first run under
-    batches       one row for each time that runs were computed: what computed them, where and when
-    runs          one row for each finished run
+    batches       one row for each program, machine and time that made runs
+    runs          one row for each finished run, with a checksum
 
-Runs are committed as they finish. The file is in WAL mode, so several processes can read and write it at once.
+Runs are committed as they come back. The file is in WAL mode, so several processes can read and write it at once, and
+one that is killed loses nothing that was committed. Nothing in the file is trusted: an experiment is told by the digest
+of its content, a run by its checksum, so that what was altered or damaged is noticed, and never part of a table.
 """
 
 from __future__ import annotations
 
+import functools
+import hashlib
+import itertools
 import json
 import os
 import platform
 import sqlite3
 import subprocess
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import NamedTuple
 
 import numba
 import numpy as np
@@ -27,9 +34,9 @@ from safe.evolution import Run
 from safe.version import __version__
 
 _PATIENCE = 60  # seconds to wait for other processes that write
-_LAYOUT = 1  # of the tables below
+_LAYOUT = 2  # of the tables below
 _APPLICATION = 0x53414645  # "SAFE": tells a store from other SQLite files
-_TABLES = """
+_EXPERIMENTS_AND_BATCHES = """
     CREATE TABLE experiments (
         id INTEGER PRIMARY KEY,
         digest TEXT NOT NULL UNIQUE,
@@ -48,6 +55,9 @@ _TABLES = """
         platform TEXT NOT NULL,
         time TEXT NOT NULL
     );
+"""
+# without row numbers there is one tree of rows and no second one, an index, that might be damaged and disagree
+_RUNS = """
     CREATE TABLE runs (
         experiment INTEGER NOT NULL REFERENCES experiments,
         run INTEGER NOT NULL,
@@ -59,9 +69,30 @@ _TABLES = """
         coefficients TEXT NOT NULL,
         evaluations INTEGER NOT NULL,
         seconds REAL NOT NULL,
+        checksum TEXT NOT NULL,
         PRIMARY KEY (experiment, run)
-    );
+    ) WITHOUT ROWID;
 """
+_OUTCOME = "success, generation, distance, controller, coefficients, evaluations, seconds"
+
+
+class StoredExperiment(NamedTuple):
+    """An experiment as it is in a store."""
+
+    id: int  # in this store
+    digest: str
+    content: dict
+    algorithm: str  # what it was called
+    maze: str
+
+
+class StoredRun(NamedTuple):
+    """A run as it is in a store."""
+
+    number: int
+    run: Run
+    seconds: float
+    batch: int
 
 
 class Store:
@@ -70,13 +101,17 @@ class Store:
     Raises
     ------
     ValueError
-        Where the file cannot be opened, is no store, or was made by a newer version of this package.
+        Where the file cannot be opened, is no store, or was made by a newer version of this package; later, where it
+        cannot be read or written any more, or holds what was not put there.
     """
 
-    def __init__(self, path: str | os.PathLike | None) -> None:
+    def __init__(self, path: str | os.PathLike | None, must_exist: bool = False) -> None:
         self.path = path
         self._connection = None
+        self._batches: dict[tuple, int] = {}
         try:
+            if must_exist and not Path(path).exists():
+                raise ValueError("there is no such file")
             self._connection = self._open(path)
             self._set_up(self._connection)
         except (sqlite3.Error, OSError, TypeError, ValueError) as error:
@@ -102,7 +137,7 @@ class Store:
         connection.isolation_level = None  # transactions are begun by hand
         connection.execute("BEGIN")  # all that is read here is of one moment
         (application,) = connection.execute("PRAGMA application_id").fetchone()
-        (layout,) = connection.execute("PRAGMA user_version").fetchone()
+        layout = _layout(connection)
         is_new = not _has_tables(connection)
         connection.execute("COMMIT")
         if not is_new and application != _APPLICATION:
@@ -113,10 +148,11 @@ class Store:
         connection.execute("PRAGMA synchronous = NORMAL")
         connection.execute("BEGIN IMMEDIATE")  # of two processes that make the file, one waits for the other
         if not _has_tables(connection):
-            for statement in _TABLES.split(";"):
-                connection.execute(statement)
+            _execute_all(connection, _EXPERIMENTS_AND_BATCHES + _RUNS)
             connection.execute(f"PRAGMA application_id = {_APPLICATION}")
-            connection.execute(f"PRAGMA user_version = {_LAYOUT}")
+        elif _layout(connection) == 1:
+            _add_checksums(connection)
+        connection.execute(f"PRAGMA user_version = {_LAYOUT}")
         connection.execute("COMMIT")
 
     def __enter__(self) -> Store:
@@ -125,57 +161,210 @@ class Store:
     def __exit__(self, *_: object) -> None:
         self._connection.close()
 
-    def experiment(self, content: dict, digest: str, algorithm: str, maze: str) -> int:
-        """The number of an experiment in this store; it is entered where it is new."""
-        self._connection.execute(
-            "INSERT OR IGNORE INTO experiments (digest, content, algorithm, maze) VALUES (?, ?, ?, ?)",
-            (digest, json.dumps(content, sort_keys=True), algorithm, maze),
-        )
-        return self._connection.execute("SELECT id FROM experiments WHERE digest = ?", (digest,)).fetchone()[0]
+    @contextmanager
+    def changing(self) -> Iterator[sqlite3.Connection]:
+        """All changes that are made in this context, or none of them."""
+        with self._telling():
+            self._connection.execute("BEGIN IMMEDIATE")
+            try:
+                yield self._connection
+                self._connection.execute("COMMIT")
+            except BaseException:
+                if self._connection.in_transaction:
+                    self._connection.execute("ROLLBACK")
+                raise
 
-    def batch(self, experiment: int) -> int:
-        """The number of a new batch of runs, with where it comes from."""
-        provenance = {**_provenance(), "time": datetime.now(UTC).isoformat(timespec="seconds")}
-        columns = ", ".join(f'"{column}"' for column in provenance)
-        marks = ", ".join("?" * len(provenance))
-        return self._connection.execute(
-            f"INSERT INTO batches (experiment, {columns}) VALUES (?, {marks})", (experiment, *provenance.values())
-        ).lastrowid
+    @contextmanager
+    def _telling(self) -> Iterator[None]:
+        """Turn an error of SQLite into one that tells which store it is about."""
+        try:
+            yield
+        except sqlite3.Error as error:
+            raise ValueError(f"store must be in order and have room to grow; {self.path} was not ({error})") from None
 
-    def finished(self, experiment: int) -> set[int]:
+    def experiment(self, content: dict, digest: str, algorithm: str, maze: str) -> StoredExperiment:
+        """An experiment of this store; it is entered where it is new."""
+        with self.changing() as connection:
+            connection.execute(
+                "INSERT OR IGNORE INTO experiments (digest, content, algorithm, maze) VALUES (?, ?, ?, ?)",
+                (digest, json.dumps(content, sort_keys=True), algorithm, maze),
+            )
+        (found,) = self.experiments(digest)
+        return found
+
+    def experiments(self, digest: str | None = None) -> list[StoredExperiment]:
+        """The experiments in this store, or that with this digest."""
+        with self._telling():
+            rows = self._connection.execute(
+                "SELECT id, digest, content, algorithm, maze FROM experiments WHERE ? IN (digest, '') ORDER BY id",
+                (digest or "",),
+            ).fetchall()
+        found = []
+        for number, its_digest, content, algorithm, maze in rows:
+            if not isinstance(content, str) or hashlib.sha256(content.encode()).hexdigest() != its_digest:
+                raise ValueError(
+                    f"store must be as it was left; in {self.path} the experiment {checks.shown(algorithm)} on "
+                    f"{checks.shown(maze)} was altered or damaged"
+                )
+            found.append(StoredExperiment(number, its_digest, json.loads(content), str(algorithm), str(maze)))
+        return found
+
+    def finished(self, experiment: StoredExperiment) -> set[int]:
         """Which runs of an experiment are in the store."""
-        rows = self._connection.execute("SELECT run FROM runs WHERE experiment = ?", (experiment,))
-        return {number for (number,) in rows}
+        with self._telling():
+            rows = self._connection.execute("SELECT run FROM runs WHERE experiment = ?", (experiment.id,))
+            return {number for (number,) in rows}
 
-    def add(self, experiment: int, batch: int, number: int, run: Run, seconds: float) -> None:
-        """Keep a finished run. One that another process has kept meanwhile stays: it is the same."""
-        self._connection.execute(
-            "INSERT OR IGNORE INTO runs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-            (
-                experiment,
-                number,
-                batch,
-                run.success,
-                run.generation,
-                run.distance,
-                json.dumps(run.controller),
-                json.dumps(run.coefficients),
-                run.evaluations,
-                seconds,
-            ),
-        )
+    def successes(self, experiment: StoredExperiment, below: int) -> int:
+        """How many of the kept runs with a number below `below` succeeded."""
+        with self._telling():
+            query = "SELECT count(*) FROM runs WHERE experiment = ? AND run < ? AND success"
+            return self._connection.execute(query, (experiment.id, below)).fetchone()[0]
 
-    def runs(self, experiment: int, below: int) -> Iterable[tuple[int, Run, float]]:
-        """Number, run and seconds of the kept runs with a number below `below`, in order."""
-        rows = self._connection.execute(
-            "SELECT run, success, generation, distance, controller, coefficients, evaluations, seconds"
-            " FROM runs WHERE experiment = ? AND run < ? ORDER BY run",
-            (experiment, below),
-        )
-        for number, success, generation, distance, controller, coefficients, evaluations, seconds in rows:
+    def add(
+        self, experiment: StoredExperiment, origin: dict[str, str | None], runs: Sequence[tuple[int, Run, float]]
+    ) -> None:
+        """Keep finished runs (number, run, seconds). One that another process kept meanwhile stays: it is the same."""
+        if not runs:
+            return
+        with self.changing() as connection:
+            batch = self._batch(connection, experiment, origin)
+            for number, run, seconds in runs:
+                row = number, *_outcome(run, seconds)
+                connection.execute(
+                    f"INSERT OR IGNORE INTO runs (experiment, batch, run, {_OUTCOME}, checksum)"
+                    " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                    (experiment.id, batch, *row, _checksum(experiment.digest, *row)),
+                )
+
+    def _batch(
+        self, connection: sqlite3.Connection, experiment: StoredExperiment, origin: dict[str, str | None]
+    ) -> int:
+        key = experiment.id, *origin.values()
+        if key not in self._batches:
+            provenance = {"time": datetime.now(UTC).isoformat(timespec="seconds"), **origin}
+            marks = ", ".join("?" * len(provenance))
+            self._batches[key] = connection.execute(
+                f"INSERT INTO batches (experiment, {_quoted(provenance)}) VALUES (?, {marks})",
+                (experiment.id, *provenance.values()),
+            ).lastrowid
+        return self._batches[key]
+
+    def origin_of(self, batch: int) -> dict[str, str | None]:
+        """What made the runs of a batch, and when."""
+        columns = [*origin(), "time"]
+        with self._telling():
+            query = f"SELECT {_quoted(columns)} FROM batches WHERE id = ?"
+            return dict(zip(columns, self._connection.execute(query, (batch,)).fetchone(), strict=True))
+
+    def runs(self, experiment: StoredExperiment, below: int | None = None) -> list[StoredRun]:
+        """The kept runs of an experiment, those with a number below `below`, in order."""
+        with self._telling():
+            rows = self._connection.execute(
+                f"SELECT batch, checksum, run, {_OUTCOME} FROM runs WHERE experiment = ? AND run < ? ORDER BY run",
+                (experiment.id, np.iinfo(np.int64).max if below is None else below),
+            ).fetchall()
+        found = []
+        for batch, checksum, *row in rows:
+            if _checksum(experiment.digest, *row) != checksum:
+                raise ValueError(
+                    f"store must be as it was left; in {self.path} run {checks.shown(row[0])} of "
+                    f"{experiment.algorithm} on {experiment.maze} was altered or damaged"
+                )
+            number, success, generation, distance, controller, coefficients, evaluations, seconds = row
             controller, coefficients = tuple(json.loads(controller)), tuple(json.loads(coefficients))
             run = Run(bool(success), generation, distance, controller, coefficients, evaluations)
-            yield number, run, seconds
+            found.append(StoredRun(number, run, seconds, batch))
+        return found
+
+
+def merge(store: str | os.PathLike, other: str | os.PathLike) -> int:
+    """Put all runs of another store into this one: those that it has already once, and where each comes from.
+
+    Parameters
+    ----------
+    store : path
+        The store that grows; made where there is none.
+    other : path
+        The other store; it stays as it is.
+
+    Returns
+    -------
+    int
+        How many runs are new in the store.
+
+    Raises
+    ------
+    ValueError
+        Where one of them is no store, or they have different outcomes of the same run. Nothing is merged then.
+    """
+    with Store(other, must_exist=True) as source, Store(store) as target:
+        news = []
+        for theirs in source.experiments():
+            ours = {kept.number: kept.run for known in target.experiments(theirs.digest) for kept in target.runs(known)}
+            runs = source.runs(theirs)
+            for number, run, _, _ in runs:
+                if ours.get(number, run) != run:
+                    raise ValueError(
+                        f"other must agree with the store; was {checks.shown(str(other))}, where run {number} of "
+                        f"{theirs.algorithm} on {theirs.maze} ends {run.distance} from the goal in generation "
+                        f"{run.generation}, and in {store} {ours[number].distance} in {ours[number].generation}, "
+                        "or with another controller: see what made either in their tables of batches"
+                    )
+            news.append((theirs, [kept for kept in runs if kept.number not in ours]))
+        for theirs, runs in news:
+            experiment = target.experiment(theirs.content, theirs.digest, theirs.algorithm, theirs.maze)
+            for batch, of_one_batch in itertools.groupby(
+                sorted(runs, key=lambda kept: kept.batch), lambda kept: kept.batch
+            ):
+                target.add(experiment, source.origin_of(batch), [kept[:3] for kept in of_one_batch])
+    return sum(len(runs) for _, runs in news)
+
+
+def _outcome(run: Run, seconds: float) -> tuple:
+    """The values of the columns _OUTCOME."""
+    return (
+        int(run.success),
+        run.generation,
+        run.distance,
+        json.dumps(run.controller),
+        json.dumps(run.coefficients),
+        run.evaluations,
+        seconds,
+    )
+
+
+def _checksum(*values: object) -> str:
+    """What tells whether any of these was altered: 64 bits of BLAKE2 over how Python writes them."""
+    return hashlib.blake2b(repr(values).encode(), digest_size=8).hexdigest()
+
+
+def _quoted(columns: Iterable[str]) -> str:
+    """The names of columns as SQL wants them: "commit" is a word of its own."""
+    return ", ".join(f'"{column}"' for column in columns)
+
+
+def _execute_all(connection: sqlite3.Connection, statements: str) -> None:
+    """Statements within the transaction that is open: `executescript` would end it first."""
+    for statement in statements.split(";"):
+        connection.execute(statement)
+
+
+def _add_checksums(connection: sqlite3.Connection) -> None:
+    """Bring the runs of a store of layout 1, which had no checksums, into the table of today."""
+    connection.create_function("checksum", -1, _checksum, deterministic=True)
+    connection.execute("ALTER TABLE runs RENAME TO runs_without_checksums")
+    _execute_all(connection, _RUNS)
+    connection.execute(
+        f"INSERT INTO runs (experiment, batch, run, {_OUTCOME}, checksum)"
+        f" SELECT experiment, batch, run, {_OUTCOME}, checksum(digest, run, {_OUTCOME})"
+        " FROM runs_without_checksums JOIN experiments ON experiments.id = experiment"
+    )
+    connection.execute("DROP TABLE runs_without_checksums")
+
+
+def _layout(connection: sqlite3.Connection) -> int:
+    return connection.execute("PRAGMA user_version").fetchone()[0]
 
 
 def _switch_to_wal(connection: sqlite3.Connection) -> None:
@@ -195,7 +384,9 @@ def _has_tables(connection: sqlite3.Connection) -> bool:
     return connection.execute("SELECT count(*) FROM sqlite_master").fetchone() != (0,)
 
 
-def _provenance() -> dict[str, str | None]:
+@functools.cache
+def origin() -> dict[str, str | None]:
+    """What makes runs in this process."""
     return {
         "version": __version__,
         "commit": _commit(),

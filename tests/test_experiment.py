@@ -55,17 +55,18 @@ def test_random_search_has_no_coefficients():
 
 
 class InThisThread(Executor):
-    """Computes each task at once, and stops in the middle of one where it is told to."""
+    """Computes each batch at once, counts the runs, and fails after so many where it is told to."""
 
     def __init__(self, stop_before=None, error=KeyboardInterrupt):
-        self.submitted, self.stop_before, self.error = 0, stop_before, error
+        self.runs, self.batches, self.stop_before, self.error = 0, 0, stop_before, error
 
-    def submit(self, function, *arguments):
-        if self.submitted == self.stop_before:
+    def submit(self, function, experiment, numbers, stop):
+        if self.runs == self.stop_before:
             raise self.error
-        self.submitted += 1
+        self.runs += len(numbers)
+        self.batches += 1
         future = Future()
-        future.set_result(function(*arguments))
+        future.set_result(function(experiment, numbers, stop))
         return future
 
 
@@ -86,7 +87,7 @@ def test_only_missing_runs_are_computed(tmp_path, uninterrupted):
     for runs, computed in ((5, 5), (5, 0), (12, 7), (3, 0)):
         executor = InThisThread()
         table = results(replace(EXPERIMENT, runs=runs), store, executor)
-        assert executor.submitted == computed
+        assert executor.runs == computed
         pd.testing.assert_frame_equal(table, uninterrupted[:runs])
 
 
@@ -103,22 +104,24 @@ def test_interrupted_and_asked_for_again(tmp_path, uninterrupted, error):
     assert caught.value.__notes__ == ["5 of 12 runs were finished; without a store they are not kept"]
     rest = InThisThread()
     pd.testing.assert_frame_equal(results(EXPERIMENT, store, rest), uninterrupted)
-    assert rest.submitted == 7
+    assert rest.runs == 7
 
 
 def test_a_failing_run_is_told_and_the_others_are_kept(tmp_path, monkeypatch, uninterrupted):
-    store, really = tmp_path / "s.sqlite", module.evolve
+    store, really = tmp_path / "s.sqlite", module.evolve_unless
 
-    def evolve(maze, algorithm, seed, parameters):
+    def evolve_unless(stop, maze, algorithm, seed, parameters):
         if seed.spawn_key == (4,):
             raise RuntimeError("no luck")
-        return really(maze, algorithm, seed, parameters)
+        return really(stop, maze, algorithm, seed, parameters)
 
     with monkeypatch.context() as patch:
-        patch.setattr(module, "evolve", evolve)
+        patch.setattr(module, "evolve_unless", evolve_unless)
         with pytest.raises(RuntimeError, match="no luck"):
-            results(EXPERIMENT, store, ThreadPoolExecutor(1))
-    pd.testing.assert_frame_equal(results(EXPERIMENT, store), uninterrupted)
+            results(EXPERIMENT, store, InThisThread())
+    rest = InThisThread()
+    pd.testing.assert_frame_equal(results(EXPERIMENT, store, rest), uninterrupted)
+    assert rest.runs == 1
 
 
 # long enough to be stopped in the middle, on a slow machine too
@@ -136,9 +139,9 @@ def long_uninterrupted():
 
 
 def stored(path):
-    """Number, run and seconds of what is kept of the long experiment."""
+    """What is kept of the long experiment."""
     with Store(path) as store:
-        return list(store.runs(store.experiment(LONG.content, LONG.digest, "safe", "maze2"), below=LONG.runs))
+        return store.runs(store.experiment(LONG.content, LONG.digest, "safe", "maze2"))
 
 
 @pytest.mark.parametrize("sent", [signal.SIGKILL, signal.SIGINT])
@@ -159,7 +162,7 @@ def test_killed_and_asked_for_again(tmp_path, sent, long_uninterrupted):
     kept = stored(store)
     assert 4 <= len(kept) < 80
     resumed = run(LONG, store, progress=False)
-    assert resumed.seconds[[number for number, _, _ in kept]].tolist() == [seconds for _, _, seconds in kept]
+    assert resumed.seconds[[run.number for run in kept]].tolist() == [run.seconds for run in kept]
     pd.testing.assert_frame_equal(resumed.drop(columns="seconds"), long_uninterrupted)
 
 
@@ -169,7 +172,7 @@ def test_processes_that_run_the_same_into_one_new_store(tmp_path, long_uninterru
     assert [process.wait(timeout=120) for process in processes] == [0, 0, 0]
     executor = InThisThread()
     pd.testing.assert_frame_equal(results(LONG, store, executor), long_uninterrupted)
-    assert executor.submitted == 0
+    assert executor.runs == 0
 
 
 def test_what_an_experiment_is():

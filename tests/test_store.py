@@ -1,40 +1,45 @@
+import hashlib
 import json
 import sqlite3
 
 import pytest
 
 from safe.evolution import Run
-from safe.store import Store
+from safe.store import Store, origin
 
 RUN = Run(True, 141, 2, (0.1, -1e-300, 1 / 3), (0.85, 0.99), 28_400)
 
 
-def experiment(store, digest="d"):
-    return store.experiment({"seed": 1}, digest, "safe", "maze1")
+def experiment(store, seed=1):
+    content = {"seed": seed}
+    digest = hashlib.sha256(json.dumps(content).encode()).hexdigest()
+    return store.experiment(content, digest, "safe", "maze1")
+
+
+def kept(store, below=None):
+    return [(run.number, run.run, run.seconds) for run in store.runs(experiment(store), below)]
 
 
 def test_a_run_comes_back_to_the_last_bit(tmp_path):
     with Store(tmp_path / "new" / "folder" / "s.sqlite") as store:
-        number = experiment(store)
-        store.add(number, store.batch(number), 7, RUN, 0.25)
+        store.add(experiment(store), origin(), [(7, RUN, 0.25)])
     with Store(tmp_path / "new" / "folder" / "s.sqlite") as store:
-        assert list(store.runs(experiment(store), below=8)) == [(7, RUN, 0.25)]
-        assert list(store.runs(experiment(store), below=7)) == []
+        assert kept(store) == kept(store, below=8) == [(7, RUN, 0.25)]
+        assert kept(store, below=7) == []
         assert store.finished(experiment(store)) == {7}
-        assert store.finished(experiment(store, "another")) == set()
+        assert store.finished(experiment(store, seed=2)) == set()
 
 
 def test_a_run_is_kept_once():
     with Store(None) as store:
-        number = experiment(store)
         for seconds in (1.0, 2.0):
-            store.add(number, store.batch(number), 0, RUN, seconds)
-        assert list(store.runs(number, below=1)) == [(0, RUN, 1.0)]
+            store.add(experiment(store), origin(), [(0, RUN, seconds)])
+        assert kept(store) == [(0, RUN, 1.0)]
 
 
 def test_every_batch_tells_where_it_comes_from(tmp_path):
     with Store(tmp_path / "s.sqlite") as store:
-        store.batch(experiment(store))
+        store.add(experiment(store), origin(), [(0, RUN, 1.0)])
     connection = sqlite3.connect(tmp_path / "s.sqlite")
     connection.row_factory = sqlite3.Row
     (batch,) = map(dict, connection.execute("SELECT * FROM batches"))
@@ -46,11 +51,10 @@ def test_every_batch_tells_where_it_comes_from(tmp_path):
 
 def test_two_processes_may_have_it_open(tmp_path):
     with Store(tmp_path / "s.sqlite") as one, Store(tmp_path / "s.sqlite") as other:
-        first, second = one.batch(experiment(one)), other.batch(experiment(other))
-        assert first != second
-        one.add(1, first, 0, RUN, 1.0)
-        other.add(1, second, 0, RUN, 1.0)
-        assert one.finished(1) == other.finished(1) == {0}
+        one.add(experiment(one), origin(), [(0, RUN, 1.0), (1, RUN, 1.0)])
+        other.add(experiment(other), origin(), [(1, RUN, 2.0), (2, RUN, 2.0)])
+        assert kept(one) == kept(other) == [(0, RUN, 1.0), (1, RUN, 1.0), (2, RUN, 2.0)]
+        assert [run.batch for run in one.runs(experiment(one))] == [1, 1, 2]
 
 
 def test_files_that_are_no_store(tmp_path):
