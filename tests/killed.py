@@ -1,0 +1,16 @@
+"""What the tests of interruption run in processes of its own: an experiment that many kills do not outlast.
+
+Imported once by the server that these processes are forked from, so that each starts with everything compiled.
+"""
+
+import safe
+from safe.evolution import compile_kernels
+
+EXPERIMENT = safe.Experiment("safe", "maze2", runs=1500, seed=5, parameters=safe.Parameters(generations=20))
+
+compile_kernels()
+
+
+def work(store, runs):
+    """The first so many runs, into the store."""
+    safe.run(safe.Experiment("safe", "maze2", runs, seed=5, parameters=EXPERIMENT.parameters), store)
