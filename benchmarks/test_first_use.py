@@ -1,0 +1,31 @@
+"""How long one waits for a first result: a new Python process, with nothing compiled before, and with what it kept."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+FIRST_RUN = "import safe; safe.evolve('maze1', 'safe', 1, safe.Parameters(generations=2))"
+
+
+@pytest.fixture(scope="module")
+def cache_folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("cache")
+
+
+@pytest.mark.parametrize(
+    ("stage", "code", "rounds"),
+    [
+        ("without compiled cache", FIRST_RUN, 1),
+        ("with compiled cache", FIRST_RUN, 3),
+        ("import safe", "import safe", 3),
+    ],
+    ids=lambda value: value if value in ("import safe",) else None,
+)
+def test_first_use(benchmark, measure, cache_folder, stage, code, rounds):
+    # where benchmarks are only checked, nothing is compiled for the sake of it
+    environment = os.environ | ({"NUMBA_CACHE_DIR": str(cache_folder)} if benchmark.enabled else {})
+    command = [sys.executable, "-c", code]
+    arguments = {"env": environment, "check": True}
+    measure("first use", lambda: subprocess.run(command, **arguments), rounds=rounds, stage=stage)
