@@ -4,6 +4,7 @@ benchmarks/results.json holds, for each benchmark, its group, the seconds of one
 measured: most often the `generations` that one round covers, so that median / generations are seconds a generation.
 """
 
+import time
 from importlib.metadata import version
 
 import pytest
@@ -17,14 +18,22 @@ STATISTICS = "min", "median", "max", "iqr", "rounds"
 
 @pytest.fixture
 def measure(benchmark):
-    """Time a function. What makes its arguments is called before every round, and not timed."""
+    """Time a function: `once`, or in as many rounds as half a second holds, after one that compiles.
 
-    def measure(group, function, arguments=tuple, rounds=5, **about):
+    What makes its arguments is called before every round, and not timed.
+    """
+
+    def measure(group, function, arguments=tuple, once=False, **about):
         benchmark.group = group
         benchmark.extra_info.update(about)
-        # the round that is not counted compiles; what takes one round alone is compiled before, or never
-        warmup_rounds = int(rounds > 1)
-        return benchmark.pedantic(function, setup=lambda: (arguments(), {}), rounds=rounds, warmup_rounds=warmup_rounds)
+        rounds = 1
+        if benchmark.enabled and not once:
+            function(*arguments())
+            given = arguments()
+            started = time.perf_counter()
+            function(*given)
+            rounds = min(max(round(0.5 / (time.perf_counter() - started)), 3), 50)
+        return benchmark.pedantic(function, setup=lambda: (arguments(), {}), rounds=rounds)
 
     return measure
 

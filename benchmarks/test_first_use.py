@@ -14,18 +14,10 @@ def cache_folder(tmp_path_factory):
     return tmp_path_factory.mktemp("cache")
 
 
-@pytest.mark.parametrize(
-    ("stage", "code", "rounds"),
-    [
-        ("without compiled cache", FIRST_RUN, 1),
-        ("with compiled cache", FIRST_RUN, 3),
-        ("import safe", "import safe", 3),
-    ],
-    ids=lambda value: value if value in ("import safe",) else None,
-)
-def test_first_use(benchmark, measure, cache_folder, stage, code, rounds):
+@pytest.mark.parametrize("stage", ["without compiled cache", "with compiled cache", "import safe"])
+def test_first_use(benchmark, measure, cache_folder, stage):
     # where benchmarks are only checked, nothing is compiled for the sake of it
     environment = os.environ | ({"NUMBA_CACHE_DIR": str(cache_folder)} if benchmark.enabled else {})
-    command = [sys.executable, "-c", code]
-    arguments = {"env": environment, "check": True}
-    measure("first use", lambda: subprocess.run(command, **arguments), rounds=rounds, stage=stage)
+    command = [sys.executable, "-c", "import safe" if stage == "import safe" else FIRST_RUN]
+    once = stage == "without compiled cache"
+    measure("first use", lambda: subprocess.run(command, env=environment, check=True), once=once, stage=stage)

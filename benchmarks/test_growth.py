@@ -33,10 +33,10 @@ def square_maze(side, walls):
 def measure_part(measure):
     """Time a part of a generation, of size `size` of `what`."""
 
-    def measure_part(what, size, part, maze, algorithm, parameters, rounds=3, **more):
+    def measure_part(what, size, part, maze, algorithm, parameters, **more):
         function, arguments, generations = workload(part, maze, algorithm, parameters, **more)
         about = {"algorithm": algorithm, "maze": getattr(maze, "name", maze), "generations": generations}
-        measure("growth", function, arguments, rounds, what=what, size=size, kernel=part, **about)
+        measure("growth", function, arguments, what=what, size=size, kernel=part, **about)
 
     return measure_part
 
@@ -46,7 +46,7 @@ def measure_part(measure):
 def test_population(measure_part, sized, algorithm, size):
     """Objective functions are as many as solutions, the archives those of the paper."""
     n = sized(size, check=50)
-    parameters = Parameters(population=n, objectives=n, generations=sized(20, check=2), success_distance=0)
+    parameters = Parameters(population=n, objectives=n, generations=sized(20, check=2))
     measure_part("population", size, "all", "maze1", algorithm, parameters)
 
 
@@ -55,7 +55,7 @@ def test_population(measure_part, sized, algorithm, size):
 def test_archive(measure_part, sized, part, size):
     """The same generations of one run for all sizes, after all before were offered to an archive of that size."""
     first = sized(500, check=2)
-    run = Parameters(generations=first + sized(20, check=2), success_distance=0)
+    run = Parameters(generations=first + sized(20, check=2))
     timed_with = Parameters(archive=sized(size, check=100))
     measure_part("archive", size, part, "maze1", "safe", run, first=first, timed_with=timed_with)
 
@@ -64,7 +64,7 @@ def test_archive(measure_part, sized, part, size):
 @pytest.mark.parametrize("size", [1, 5, 15, 50, 100, 200])
 def test_k(measure_part, sized, part, size):
     first = sized(100, check=2)
-    run = Parameters(generations=first + sized(20, check=2), success_distance=0)
+    run = Parameters(generations=first + sized(20, check=2))
     measure_part("k", size, part, "maze1", "safe", run, first=first, timed_with=Parameters(k=size))
 
 
@@ -72,7 +72,7 @@ def test_k(measure_part, sized, part, size):
 @pytest.mark.parametrize("size", [30, 300, 3000, 30_000])
 def test_steps(measure_part, sized, maze, size):
     maze = "maze1" if maze == "maze1" else square_maze(sized(1000, check=50), 0)
-    parameters = Parameters(steps=sized(size, check=300), generations=sized(20, check=2), success_distance=0)
+    parameters = Parameters(steps=sized(size, check=300), generations=sized(20, check=2))
     measure_part("steps", size, "robot", maze, "novelty", parameters)
 
 
@@ -82,7 +82,7 @@ def test_steps(measure_part, sized, maze, size):
 def test_maze(measure_part, sized, part, walls, size):
     """As many steps as in the paper, for its size: three times the side. In an empty maze robots end far apart."""
     maze = square_maze(sized(size, check=50), walls)
-    parameters = Parameters(steps=3 * size, generations=sized(20, check=2), success_distance=0)
+    parameters = Parameters(steps=3 * size, generations=sized(20, check=2))
     measure_part("maze", size, part, maze, "novelty", parameters)
 
 
@@ -93,4 +93,4 @@ def test_runs(measure, sized, size):
     experiment = Experiment("safe", "maze1", sized(size, check=10), parameters=tiny)
     safe.evolve("maze1", "safe", seed=0, parameters=tiny)  # compiles
     arguments = experiment, None, None, False
-    measure("growth", safe.run, lambda: arguments, rounds=1, what="runs", size=size, kernel="safe.run", generations=2)
+    measure("growth", safe.run, lambda: arguments, once=True, what="runs", size=size, kernel="safe.run", generations=2)

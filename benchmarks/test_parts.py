@@ -23,7 +23,6 @@ PARTS = {
 @pytest.mark.parametrize("maze", ["maze1", "maze2"])
 @pytest.mark.parametrize(("algorithm", "part"), [(algorithm, part) for algorithm in PARTS for part in PARTS[algorithm]])
 def test_part(measure, sized, algorithm, maze, part):
-    # a success distance of 0 lets the run go on to its last generation
-    parameters = Parameters(generations=sized(500, check=5), success_distance=0)
+    parameters = Parameters(generations=sized(500, check=5))
     function, arguments, generations = workload(part, maze, algorithm, parameters)
-    measure("part", function, arguments, rounds=7, algorithm=algorithm, maze=maze, part=part, generations=generations)
+    measure("part", function, arguments, algorithm=algorithm, maze=maze, part=part, generations=generations)

@@ -16,8 +16,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from safe import Maze, Parameters, generations
-from safe.evolution import NOVELTY, Settings, State, _rate_objectives, _start, best_scores, drive
+from safe import Maze, Parameters
+from safe.evolution import (
+    NOVELTY,
+    Settings,
+    State,
+    _rate_objectives,
+    _start,
+    _step_by_step,
+    best_scores,
+    drive,
+)
 from safe.kernel import kernel
 from safe.novelty import score_cells
 from safe.operators import breed
@@ -45,10 +54,16 @@ class Workload(NamedTuple):
     generations: int
 
 
+def start(maze: Maze | str, algorithm: str, parameters: Parameters) -> tuple[State, Settings, np.random.Generator]:
+    """The beginning of a run that no success will end."""
+    state, settings, rng = _start(maze, algorithm, SEED, parameters)
+    return state, settings._replace(success_distance=-1), rng
+
+
 @lru_cache(maxsize=4)  # 500 generations take some 20 MB
 def record(maze: Maze | str, algorithm: str, parameters: Parameters) -> Recording:
     """A whole run."""
-    run = list(generations(maze, algorithm, SEED, parameters))
+    run = list(_step_by_step(*start(maze, algorithm, parameters)))
     recorded = ([getattr(generation, name) for generation in run] for name in Recording._fields)
     return Recording(*(np.array(values) if values[0] is not None else np.zeros((0, 0)) for values in recorded))
 
@@ -68,7 +83,7 @@ def workload(
     """
     run = record(maze, algorithm, parameters)
     before, timed = (Recording(*(array[some] for array in run)) for some in (slice(first), slice(first, None)))
-    state, settings, rng = _start(maze, algorithm, SEED, timed_with or parameters)
+    state, settings, rng = start(maze, algorithm, timed_with or parameters)
     if first > 0:
         PARTS[part](state, settings, rng, before)
 
