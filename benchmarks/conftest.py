@@ -2,6 +2,9 @@
 
 benchmarks/results.json holds, for each benchmark, its group, the seconds of one round, and in `extra_info` what was
 measured: most often the `generations` that one round covers, so that median / generations are seconds a generation.
+
+Seconds are those of the processor, so that other programs on the machine disturb little (of all threads together, where
+there are several); in the groups "paper" and "first use", where they are waited for, those of the clock on the wall.
 """
 
 import time
@@ -46,8 +49,11 @@ def sized(request):
 
 
 def pytest_collection_modifyitems(items):
-    """The paper's experiments first: the memory they need is the most that the process has taken by then."""
+    """The paper's experiments first, since the memory they need is the most that the process has taken by then."""
     items.sort(key=lambda item: item.path.stem != "test_paper")
+    for item in items:
+        if item.get_closest_marker("benchmark") is None:
+            item.add_marker(pytest.mark.benchmark(timer=time.process_time))
 
 
 def pytest_benchmark_update_json(output_json):

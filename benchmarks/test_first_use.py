@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -14,6 +15,7 @@ def cache_folder(tmp_path_factory):
     return tmp_path_factory.mktemp("cache")
 
 
+@pytest.mark.benchmark(timer=time.perf_counter)
 @pytest.mark.parametrize("stage", ["without compiled cache", "with compiled cache", "import safe"])
 def test_first_use(benchmark, measure, cache_folder, stage):
     # where benchmarks are only checked, nothing is compiled for the sake of it

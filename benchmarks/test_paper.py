@@ -23,6 +23,7 @@ experiments = pytest.mark.parametrize(
 
 
 @experiments
+@pytest.mark.benchmark(timer=time.perf_counter)
 def test_paper(benchmark, measure, sized, algorithm, maze):
     experiment = Experiment(algorithm, maze, RUNS, parameters=Parameters(generations=sized(500, check=3)))
     safe.evolve(maze, algorithm, seed=0, parameters=Parameters(generations=2))  # compiles

@@ -41,7 +41,7 @@ def robots_in_python(maze, generations):
     [
         ("safe", None, 1, 200),
         ("safe, endpoints", robots, 4, 200),
-        ("plain Python", robots_in_python, 100, 20),  # few, since one robot takes as long as 10,000 others
+        ("plain Python", robots_in_python, 100, 20),  # few, since one robot takes as long as 30,000 others
     ],
     ids=["safe", "safe, endpoints", "plain Python"],
 )

@@ -4,7 +4,7 @@ A part timed again and again on one generation comes out several times too fast:
 branches by heart. So a whole run is recorded, and one round of a benchmark takes the part through all of its
 generations in order, from the state (archives, random numbers) of that run.
 
-The benchmarks know the package's compiled functions by this module alone.
+But for `straightforward`, the benchmarks know the package's compiled functions by this module alone.
 """
 
 from __future__ import annotations
