@@ -9,7 +9,7 @@ INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --co
 BUILD := $(BIN)/jupyter-book build . --toc book/_toc.yml --quiet --warningiserror --keep-going --nitpick
 KERNEL_TESTS := tests/test_robot.py tests/test_novelty.py tests/test_operators.py tests/test_evolution.py
 
-.PHONY: help env execute book pdf test format picture constraints clean
+.PHONY: help env execute book pdf test bench format picture constraints clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -34,6 +34,9 @@ test: .venv/installed-for-tests ## everything from nothing: environment, the tes
 	$(BIN)/pytest
 	NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.numba-boundscheck $(BIN)/pytest $(KERNEL_TESTS)
 
+bench: .venv/installed-for-bench ## time the parts, the paper's experiments and their peers, with RUNS runs of each (500)
+	$(BIN)/pytest benchmarks --benchmark-json=benchmarks/results.json --benchmark-columns=median,iqr,rounds
+
 format: .venv/installed-for-tests ## bring the code into its form
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
@@ -48,7 +51,7 @@ constraints: env ## choose the newest versions of all packages anew (constraints
 
 clean: ## remove what can be made again, but for the environment and the results
 	rm -rf _build executed .numba-boundscheck .pytest_cache .hypothesis .ruff_cache
-	find safe tests book -name __pycache__ -exec rm -rf {} +
+	find safe tests book benchmarks -name __pycache__ -exec rm -rf {} +
 
 .venv/installed: pyproject.toml requirements.txt constraints.txt
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; this is " + sys.version.split()[0] + ". Name another: make PYTHON=...")'
@@ -58,4 +61,8 @@ clean: ## remove what can be made again, but for the environment and the results
 
 .venv/installed-for-tests: .venv/installed
 	$(INSTALL) --editable .[test]
+	touch $@
+
+.venv/installed-for-bench: .venv/installed
+	$(INSTALL) --editable .[bench]
 	touch $@

@@ -1,0 +1,96 @@
+"""How the cost grows with the sizes that one may set: of the populations, archives, paths, mazes, k, and experiments.
+
+`kernel` names what is timed, as in the group "part", or a function of the package.
+"""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import safe
+from benchmarks.workloads import SEED, workload
+from safe import Experiment, Maze, Parameters
+
+
+@cache
+def square_maze(side, walls):
+    """A maze with a border, a start in the middle, and as many straight walls at random, a fifth of a side long."""
+    rng = np.random.default_rng(SEED)
+    cells = np.pad(np.zeros((side - 2, side - 2), dtype=bool), 1, constant_values=True)
+    for row, column in rng.integers(side, size=(walls, 2)):
+        if rng.random() < 0.5:
+            cells[row, column : column + side // 5] = True
+        else:
+            cells[row : row + side // 5, column] = True
+    start, goal = (side // 2, side // 2), (side // 8, side // 8)
+    for row, column in (start, goal):
+        cells[row - 1 : row + 2, column - 1 : column + 2] = False
+    return Maze(cells, start, goal, "empty" if walls == 0 else "walls at random")
+
+
+@pytest.fixture
+def measure_part(measure):
+    """Time a part of a generation, of size `size` of `what`."""
+
+    def measure_part(what, size, part, maze, algorithm, parameters, **more):
+        function, arguments, generations = workload(part, maze, algorithm, parameters, **more)
+        about = {"algorithm": algorithm, "maze": getattr(maze, "name", maze), "generations": generations}
+        measure("growth", function, arguments, what=what, size=size, kernel=part, **about)
+
+    return measure_part
+
+
+@pytest.mark.parametrize("algorithm", ["novelty", "safe"])
+@pytest.mark.parametrize("size", [50, 100, 200, 500, 1000, 2000, 5000])
+def test_population(measure_part, sized, algorithm, size):
+    """Objective functions are as many as solutions, the archives those of the paper."""
+    n = sized(size, check=50)
+    parameters = Parameters(population=n, objectives=n, generations=sized(20, check=2))
+    measure_part("population", size, "all", "maze1", algorithm, parameters)
+
+
+@pytest.mark.parametrize("part", ["novelty", "objective functions"])
+@pytest.mark.parametrize("size", [0, 100, 1000, 10_000, 100_000])
+def test_archive(measure_part, sized, part, size):
+    """The same generations of one run for all sizes, after all before were offered to an archive of that size."""
+    first = sized(500, check=2)
+    run = Parameters(generations=first + sized(20, check=2))
+    timed_with = Parameters(archive=sized(size, check=100))
+    measure_part("archive", size, part, "maze1", "safe", run, first=first, timed_with=timed_with)
+
+
+@pytest.mark.parametrize("part", ["novelty", "objective functions"])
+@pytest.mark.parametrize("size", [1, 5, 15, 50, 100, 200])
+def test_k(measure_part, sized, part, size):
+    first = sized(100, check=2)
+    run = Parameters(generations=first + sized(20, check=2))
+    measure_part("k", size, part, "maze1", "safe", run, first=first, timed_with=Parameters(k=size))
+
+
+@pytest.mark.parametrize("maze", ["maze1", "empty"])
+@pytest.mark.parametrize("size", [30, 300, 3000, 30_000])
+def test_steps(measure_part, sized, maze, size):
+    maze = "maze1" if maze == "maze1" else square_maze(sized(1000, check=50), 0)
+    parameters = Parameters(steps=sized(size, check=300), generations=sized(20, check=2))
+    measure_part("steps", size, "robot", maze, "novelty", parameters)
+
+
+@pytest.mark.parametrize("part", ["robot", "novelty"])
+@pytest.mark.parametrize("walls", [0, 25])
+@pytest.mark.parametrize("size", [20, 50, 100, 200, 500, 1000])
+def test_maze(measure_part, sized, part, walls, size):
+    """As many steps as in the paper, for its size: three times the side. In an empty maze robots end far apart."""
+    maze = square_maze(sized(size, check=50), walls)
+    parameters = Parameters(steps=3 * size, generations=sized(20, check=2))
+    measure_part("maze", size, part, maze, "novelty", parameters)
+
+
+@pytest.mark.parametrize("size", [10, 100, 1000, 10_000, 100_000])
+def test_runs(measure, sized, size):
+    """Runs so short that what is timed is what surrounds them: seeds, threads, store, table."""
+    tiny = Parameters(population=10, objectives=10, generations=2, archive=10)
+    experiment = Experiment("safe", "maze1", sized(size, check=10), parameters=tiny)
+    safe.evolve("maze1", "safe", seed=0, parameters=tiny)  # compiles
+    arguments = experiment, None, None, False
+    measure("growth", safe.run, lambda: arguments, once=True, what="runs", size=size, kernel="safe.run", generations=2)

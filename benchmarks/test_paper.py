@@ -1,0 +1,68 @@
+"""What the paper's ten experiments cost, with RUNS runs of each (500).
+
+And what the first of those runs cost by the straightforward version.
+"""
+
+import os
+import resource
+import sys
+import time
+
+import pytest
+
+import safe
+from benchmarks import straightforward
+from safe import Experiment, Parameters
+
+RUNS = int(os.environ.get("RUNS", 500))
+STRAIGHTFORWARD_RUNS = 2  # one takes some seconds
+
+experiments = pytest.mark.parametrize(
+    ("algorithm", "maze"), [(algorithm, maze) for maze in ("maze1", "maze2") for algorithm in safe.ALGORITHMS]
+)
+
+
+@experiments
+@pytest.mark.benchmark(timer=time.perf_counter)
+def test_paper(benchmark, measure, sized, algorithm, maze):
+    experiment = Experiment(algorithm, maze, RUNS, parameters=Parameters(generations=sized(500, check=3)))
+    safe.evolve(maze, algorithm, seed=0, parameters=Parameters(generations=2))  # compiles
+    started = time.process_time()  # of all threads together
+    measure(
+        "paper",
+        safe.run,
+        lambda: (experiment, None, None, False),
+        once=True,
+        algorithm=algorithm,
+        maze=maze,
+        runs=RUNS,
+    )
+    benchmark.extra_info["core_seconds"] = time.process_time() - started
+    kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1024 if sys.platform == "darwin" else 1)
+    benchmark.extra_info["peak_megabytes"] = kilobytes / 1024
+
+
+@experiments
+def test_paper_straightforward(benchmark, measure, sized, algorithm, maze):
+    experiment = Experiment(algorithm, maze, parameters=Parameters(generations=sized(500, check=3)))
+
+    def runs(evolve):
+        started = time.process_time()
+        seeds = map(experiment.seed_sequence, range(min(RUNS, STRAIGHTFORWARD_RUNS)))
+        return [evolve(maze, algorithm, seed, experiment.parameters) for seed in seeds], time.process_time() - started
+
+    for evolve in (safe.evolve, straightforward.evolve):
+        evolve(maze, algorithm, seed=0, parameters=Parameters(generations=2))  # compiles
+    expected, safe_core_seconds = runs(safe.evolve)
+    got, core_seconds = measure(
+        "paper: straightforward",
+        runs,
+        lambda: (straightforward.evolve,),
+        once=True,
+        algorithm=algorithm,
+        maze=maze,
+        runs=len(expected),
+        safe_core_seconds=safe_core_seconds,
+    )
+    assert got == expected  # the same runs, to the last bit
+    benchmark.extra_info["core_seconds"] = core_seconds

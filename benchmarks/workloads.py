@@ -1,0 +1,164 @@
+"""The parts of a generation as workloads: what real runs hand to each part, recorded, and compiled replays of it.
+
+A part timed again and again on one generation comes out several times too fast: the processor learns its few thousand
+branches by heart. So a whole run is recorded, and one round of a benchmark takes the part through all of its
+generations in order, from the state (archives, random numbers) of that run.
+
+But for `straightforward`, the benchmarks know the package's compiled functions by this module alone.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from safe import Maze, Parameters
+from safe.evolution import (
+    NOVELTY,
+    Settings,
+    State,
+    _rate_objectives,
+    _start,
+    _step_by_step,
+    best_scores,
+    drive,
+)
+from safe.kernel import kernel
+from safe.novelty import score_cells
+from safe.operators import breed
+from safe.robot import walk_all
+
+SEED = 1
+
+
+class Recording(NamedTuple):
+    """What a run was in each of its generations: the first axis of every array. Empty where a run has none of it."""
+
+    genomes: np.ndarray
+    endpoints: np.ndarray
+    components: np.ndarray
+    fitness: np.ndarray
+    objectives: np.ndarray
+    objective_fitness: np.ndarray
+
+
+class Workload(NamedTuple):
+    """A function to be timed, what makes its arguments anew for each round, and how many generations a round covers."""
+
+    function: Callable
+    arguments: Callable[[], tuple]
+    generations: int
+
+
+def start(maze: Maze | str, algorithm: str, parameters: Parameters) -> tuple[State, Settings, np.random.Generator]:
+    """The beginning of a run that no success will end."""
+    state, settings, rng = _start(maze, algorithm, SEED, parameters)
+    return state, settings._replace(success_distance=-1), rng
+
+
+@lru_cache(maxsize=4)  # 500 generations take some 20 MB
+def record(maze: Maze | str, algorithm: str, parameters: Parameters) -> Recording:
+    """A whole run."""
+    run = list(_step_by_step(*start(maze, algorithm, parameters)))
+    recorded = ([getattr(generation, name) for generation in run] for name in Recording._fields)
+    return Recording(*(np.array(values) if values[0] is not None else np.zeros((0, 0)) for values in recorded))
+
+
+def workload(
+    part: str,
+    maze: Maze | str,
+    algorithm: str,
+    parameters: Parameters,
+    first: int = 0,
+    timed_with: Parameters | None = None,
+) -> Workload:
+    """A part of the generations of a run, from the `first` on.
+
+    Archives have been offered what came before. With `timed_with`, archives and k are those of other parameters than
+    the run was made with.
+    """
+    run = record(maze, algorithm, parameters)
+    before, timed = (Recording(*(array[some] for array in run)) for some in (slice(first), slice(first, None)))
+    state, settings, rng = start(maze, algorithm, timed_with or parameters)
+    if first > 0:
+        PARTS[part](state, settings, rng, before)
+
+    def arguments() -> tuple[State, Settings, np.random.Generator, Recording]:
+        fresh_state, fresh_rng = copy.deepcopy((state, rng))
+        return fresh_state, settings, fresh_rng, timed
+
+    if timed_with is None and part in OUTCOMES:  # is the replay the work that it is said to be?
+        end, *others = arguments()
+        PARTS[part](end, *others)
+        np.testing.assert_array_equal(OUTCOMES[part](end), OUTCOMES[part](timed)[-1])
+    return Workload(PARTS[part], arguments, len(timed.genomes))
+
+
+# Compiled functions
+
+
+@kernel
+def robot(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
+    for g in range(len(run.genomes)):
+        walk_all(settings.maze, run.genomes[g], settings.steps, state.trail, state.stood_at, state.endpoints)
+
+
+@kernel
+def novelty(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
+    for g in range(len(run.endpoints)):
+        score_cells(run.endpoints[g], state.archive, state.crowd, settings.k, state.components[NOVELTY])
+
+
+@kernel
+def fitness(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
+    for g in range(len(run.fitness)):
+        best_scores(run.components[g], run.objectives[g], state.fitness, state.winners)
+
+
+@kernel
+def breeding(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
+    for g in range(len(run.genomes)):
+        breed(run.genomes[g], run.fitness[g], settings.breeding, rng, state.offspring)
+        state.genomes[:] = state.offspring
+
+
+@kernel
+def objective_functions(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
+    for g in range(len(run.objectives)):
+        state.objectives[:] = run.objectives[g]
+        _rate_objectives(state, settings)
+
+
+@kernel
+def breeding_of_objective_functions(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
+    for g in range(len(run.objectives)):
+        breed(run.objectives[g], run.objective_fitness[g], settings.objective_breeding, rng, state.objective_offspring)
+        state.objectives[:] = state.objective_offspring
+
+
+@kernel
+def whole_generation(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
+    drive(state, settings, rng)
+
+
+PARTS = {
+    "robot": robot,
+    "novelty": novelty,
+    "fitness": fitness,
+    "breeding": breeding,
+    "objective functions": objective_functions,
+    "breeding of objective functions": breeding_of_objective_functions,
+    "all": whole_generation,
+}
+
+OUTCOMES = {  # what a part leaves behind, in a state and in every generation of a recording
+    "robot": lambda end: end.endpoints,
+    "novelty": lambda end: end.components[..., NOVELTY, :],
+    "fitness": lambda end: end.fitness,
+    "objective functions": lambda end: end.objective_fitness,
+    "all": lambda end: end.genomes,
+}
