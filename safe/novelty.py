@@ -25,6 +25,7 @@ from safe.kernel import kernel
 METRICS = ("taxicab", "euclidean")
 K = 15
 ARCHIVE_CAPACITY = 1000
+MOST_DIMENSIONS = 1000  # of a point, for each of which an archive reserves memory
 
 
 class ArchiveArrays(NamedTuple):
@@ -88,10 +89,11 @@ class NoveltyArchive:
         Raises
         ------
         ValueError
-            Where the points are not finite or have other dimensions than those before.
+            Where the points are not finite, have other dimensions than those before, or not 1..1000 of them.
         """
         dimensions = None if self._arrays is None else len(self._arrays.points)
         points = checks.array("points", points, (None, dimensions))
+        checks.integer("the columns of points", points.shape[1], 1, MOST_DIMENSIONS)
         if self._arrays is None:
             self._arrays = empty_archive(self.capacity, points.shape[1])
         scores = np.empty(len(points))
@@ -202,14 +204,16 @@ def score_points(
         population[:, j] = points[order[j]]
     for i in range(n):
         size = archive.counts[0]
-        nearest[:] = np.inf
+        wanted = min(k, n - 1 + size)
+        found = nearest[: max(wanted, 1)]  # no longer than need be: every neighbour is sorted into all of it
+        found[:] = np.inf
         here = place[i]
-        _nearest_among(points[i], population, here, n, here, taxicab, nearest)
+        _nearest_among(points[i], population, here, n, here, taxicab, found)
         middle = np.searchsorted(archive.points[0, :size], points[i, 0])
-        _nearest_among(points[i], archive.points, middle, size, -1, taxicab, nearest)
+        _nearest_among(points[i], archive.points, middle, size, -1, taxicab, found)
         total = 0.0
-        for j in range(min(k, n - 1 + size)):  # in ascending order
-            total += nearest[j] if taxicab else np.sqrt(nearest[j])
+        for j in range(wanted):  # in ascending order
+            total += found[j] if taxicab else np.sqrt(found[j])
         scores[i] = total / k
         offer(archive, points[i], scores[i])
 
