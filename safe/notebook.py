@@ -46,7 +46,7 @@ def read_points(text: str) -> np.ndarray:
     Raises
     ------
     ValueError
-        Where there are fewer than two, or one is not two integers.
+        Where there are fewer than two, or one is not two integers of at most a million, either side of 0.
 
     Examples
     --------
@@ -55,6 +55,7 @@ def read_points(text: str) -> np.ndarray:
     """
     try:
         points = [(int(row), int(column)) for row, column in (point.split(",") for point in text.split())]
+        points = points if np.abs(points).max() <= checks.MOST else []
     except (AttributeError, ValueError):
         points = []
     if len(points) < 2:

@@ -43,7 +43,7 @@ def test_numbers_are_handed_on_by_column_and_index(shell):
     assert handed_on(pd.DataFrame({"claims": [3]}, ["all"])) == {"claims_all": 3}
 
 
-@pytest.mark.parametrize("text", ["", "0,0", "0,0 1", "0,0 1,2,3", "0,0 a,b", 7])
+@pytest.mark.parametrize("text", ["", "0,0", "0,0 1", "0,0 1,2,3", "0,0 a,b", "0,0 0,1000001", "0,0 1," + "9" * 30, 7])
 def test_points_that_are_none(text):
     with pytest.raises(ValueError, match="points must be two or more of row,column, separated by blanks; was"):
         notebook.read_points(text)
