@@ -29,6 +29,7 @@ from safe.maze import Maze, load_maze
 from safe.robot import WEIGHTS
 from safe.store import Store
 
+MOST_SEEDS = 2**128  # as many as numpy draws from where it is asked for a seed
 WEIGHT_COLUMNS = [f"p{i}" for i in range(1, WEIGHTS + 1)]
 
 
@@ -73,8 +74,8 @@ class Experiment:
         for name, value in (
             ("algorithm", get_algorithm(self.algorithm)),
             ("maze", load_maze(self.maze)),
-            ("runs", checks.integer("runs", self.runs, 1)),
-            ("seed", checks.integer("seed", self.seed, 0)),
+            ("runs", checks.integer("runs", self.runs, 1, checks.MOST)),
+            ("seed", checks.integer("seed", self.seed, 0, MOST_SEEDS - 1)),
         ):
             object.__setattr__(self, name, value)
 
