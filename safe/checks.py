@@ -72,7 +72,7 @@ def array(
     """
     try:
         given = np.asarray(value)
-        if given.dtype.kind not in "biufO":  # numpy would read texts and times, and cut complex numbers
+        if not _are_numbers(given):
             raise TypeError
         with np.errstate(over="ignore"):  # a long double may become infinite, which is refused below
             converted = np.array(given, dtype=np.float64, order="C")
@@ -91,3 +91,10 @@ def array(
         index = tuple(int(i) for i in np.argwhere(wrong)[0])
         raise ValueError(f"{name} must be finite and in [{low:g}, {high:g}]; was {converted[index]} at index {index}")
     return converted
+
+
+def _are_numbers(given: np.ndarray) -> bool:
+    """Are these real numbers as they are? numpy would read texts and times as well, and cut complex numbers."""
+    if given.dtype.kind == "O":
+        return all(isinstance(element, Real) for element in given.flat)
+    return given.dtype.kind in "biuf"

@@ -1,4 +1,3 @@
-from decimal import Decimal
 from fractions import Fraction
 
 import numpy as np
@@ -40,6 +39,9 @@ def test_what_is_no_integer_in_the_range(value):
         np.array(["1"]),
         np.array(["2020-01-01"], "M8[D]"),
         np.array([1], "m8[s]"),
+        np.array([0.5, "1"], object),
+        [10**30, 1j],
+        [None],
         [10**5000],
         [[1], [1, 2]],
         {1, 2},
@@ -50,14 +52,14 @@ def test_what_is_no_array_of_numbers(value):
         checks.array("x", value, (None,))
 
 
-@pytest.mark.parametrize("value", [None, np.nan, np.inf, 1e308, -1e308, np.finfo(np.longdouble).max])
+@pytest.mark.parametrize("value", [np.nan, np.inf, 1e308, -1e308, np.finfo(np.longdouble).max])
 def test_numbers_whose_squares_are_not_finite(value):
     with pytest.raises(ValueError, match=r"x must be finite and in \[-1e\+100, 1e\+100\]; was .* at index \(0,\)"):
         checks.array("x", np.array([value]), (None,))
 
 
 def test_numbers_of_all_kinds_make_an_array():
-    for value in ([True, 2, 0.5], [Fraction(1), Decimal(2), 0.5], np.array([1, 2, 0.5], ">f4"), (1, 2, 0.5)):
+    for value in ([True, 2, 0.5], [Fraction(1), 2, 0.5], np.array([1, 2, 0.5], ">f4"), (1, 2, 0.5)):
         array = checks.array("x", value, (3,))
         assert array.tolist() == [1, 2, 0.5]
         assert array.dtype == np.float64
