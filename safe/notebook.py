@@ -13,8 +13,12 @@ from safe import checks, figures
 
 
 def prepare() -> None:
-    """Give figures the style of the book, and let every table carry itself along as CSV, for the book to offer."""
+    """Give figures the style of the book, and let every table carry itself along as CSV, for the book to offer.
+
+    Names in tables are not read as mathematics.
+    """
     figures.use_style()
+    pd.set_option("display.html.use_mathjax", False)
     shell = get_ipython()
     if shell is not None:
         formatter = shell.display_formatter.mimebundle_formatter

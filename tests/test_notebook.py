@@ -20,6 +20,13 @@ def test_a_table_carries_itself_along_as_csv(shell):
     assert "<table" in shown["text/html"]
 
 
+def test_names_in_a_table_are_no_markup(shell):
+    notebook.prepare()
+    shown, _ = shell.display_formatter.format(pd.DataFrame({"n": ["<script>alert(1)</script>"]}, ["$x$"]))
+    assert "<script" not in shown["text/html"]
+    assert "mathjax_ignore" in shown["text/html"]
+
+
 def test_outside_of_jupyter_there_is_nothing_to_prepare_for():
     notebook.prepare()
 
