@@ -3,13 +3,15 @@
 PYTHON ?= python3
 RUNS ?= 500
 export RUNS
+CASES ?= 100000
 
 BIN := .venv/bin
 INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
 BUILD := $(BIN)/jupyter-book build . --toc book/_toc.yml --quiet --warningiserror --keep-going --nitpick
+BOUNDS_CHECKED := NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.numba-boundscheck
 KERNEL_TESTS := tests/test_robot.py tests/test_novelty.py tests/test_operators.py tests/test_evolution.py
 
-.PHONY: help env execute book pdf test bench format picture constraints clean
+.PHONY: help env execute book pdf test bench fuzz format picture constraints clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -32,7 +34,14 @@ test: .venv/installed-for-tests ## everything from nothing: environment, the tes
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/pytest
-	NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.numba-boundscheck $(BIN)/pytest $(KERNEL_TESTS)
+	$(BOUNDS_CHECKED) $(BIN)/pytest $(KERNEL_TESTS)
+
+fuzz: .venv/installed-for-fuzzing ## CASES malformed inputs (100000), with bounds checking
+	$(BOUNDS_CHECKED) $(BIN)/python -m tests.fuzz $(CASES)
+	@if $(BIN)/python -c 'import atheris' 2>/dev/null; then set -x; \
+		$(BOUNDS_CHECKED) $(BIN)/python -m tests.fuzz_atheris "maze texts" 20000 && \
+		$(BOUNDS_CHECKED) $(BIN)/python -m tests.fuzz_atheris "damaged stores" 2000; \
+	else echo "No wheel of atheris for this system: without the cases that it would make up."; fi
 
 bench: .venv/installed-for-bench ## time the parts, the paper's experiments and their peers, with RUNS runs of each (500)
 	$(BIN)/pytest benchmarks --benchmark-json=benchmarks/results.json --benchmark-columns=median,iqr,rounds
@@ -65,4 +74,8 @@ clean: ## remove what can be made again, but for the environment and the results
 
 .venv/installed-for-bench: .venv/installed
 	$(INSTALL) --editable .[bench]
+	touch $@
+
+.venv/installed-for-fuzzing: .venv/installed-for-tests
+	$(INSTALL) --editable .[test,fuzz]
 	touch $@

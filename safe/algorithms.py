@@ -60,8 +60,7 @@ class Algorithm:
     rating: str = "none"
 
     def __post_init__(self) -> None:
-        if not isinstance(self.name, str) or not self.name:
-            raise ValueError(f"name must be a text; was {checks.shown(self.name)}")
+        checks.text("name", self.name)
         checks.choice("rating", self.rating, RATINGS)
         if self.objectives is None:
             return

@@ -5,25 +5,37 @@ Every failed check is a ValueError that names the argument, what it must be, and
 
 from __future__ import annotations
 
-import math
+import re
 from collections.abc import Collection
 from numbers import Integral, Real
 
 import numpy as np
 
 MOST = 1_000_000  # of anything that is counted or stored: keeps a mistyped size from filling the memory
+LARGEST = 1e100  # of any number in an array: squares of such, and sums of those, are finite
 
 
 def shown(value: object) -> str:
-    """The value as an error message shows it: its repr, cut where it is long."""
-    text = repr(value)
+    """The value as an error message shows it: its repr, in one line, cut where it is long."""
+    try:
+        text = re.sub(r"\s*\n\s*", " ", repr(value))
+    except Exception:  # of an integer with thousands of digits, of a list in thousands of lists, of a broken class
+        text = f"a value of type {type(value).__name__}"
     return text if len(text) <= 80 else text[:77] + "..."
+
+
+def text(name: str, value: object) -> str:
+    """`value`, which must be a text that a title, a page and a database can show: not empty, no control characters."""
+    if not isinstance(value, str) or not value or not value.isprintable():
+        raise ValueError(f"{name} must be a text of printable characters; was {shown(value)}")
+    return value
 
 
 def integer(name: str, value: object, low: int, high: int | None = None) -> int:
     """`value` as an int in low..high, both included; no upper bound where `high` is None."""
     allowed = f"from {low} to {high}" if high is not None else f"of at least {low}"
-    is_integer = isinstance(value, Integral) and not isinstance(value, bool)
+    # numpy counts its durations among the integers, and one of them is not a time
+    is_integer = isinstance(value, Integral) and not isinstance(value, bool | np.timedelta64)
     if not is_integer or value < low or (high is not None and value > high):
         raise ValueError(f"{name} must be an integer {allowed}; was {shown(value)}")
     return int(value)
@@ -49,8 +61,8 @@ def array(
     name: str,
     value: object,
     shape: tuple[int | None, ...],
-    low: float = -math.inf,
-    high: float = math.inf,
+    low: float = -LARGEST,
+    high: float = LARGEST,
     *,
     or_empty: bool = False,
 ) -> np.ndarray:
@@ -59,7 +71,11 @@ def array(
     With `or_empty` an empty list is an array of this shape, too.
     """
     try:
-        converted = np.array(value, dtype=np.float64, order="C")
+        given = np.asarray(value)
+        if not _are_numbers(given):
+            raise TypeError
+        with np.errstate(over="ignore"):  # a long double may become infinite, which is refused below
+            converted = np.array(given, dtype=np.float64, order="C")
     except (TypeError, ValueError, OverflowError):
         raise ValueError(f"{name} must be an array of numbers; was {shown(value)}") from None
     if or_empty and converted.shape == (0,):
@@ -73,6 +89,12 @@ def array(
     wrong = ~(np.isfinite(converted) & (converted >= low) & (converted <= high))
     if wrong.any():
         index = tuple(int(i) for i in np.argwhere(wrong)[0])
-        bounds = "" if math.isinf(low) and math.isinf(high) else f" and in [{low:g}, {high:g}]"
-        raise ValueError(f"{name} must be finite{bounds}; was {converted[index]} at index {index}")
+        raise ValueError(f"{name} must be finite and in [{low:g}, {high:g}]; was {converted[index]} at index {index}")
     return converted
+
+
+def _are_numbers(given: np.ndarray) -> bool:
+    """Are these real numbers as they are? numpy would read texts and times as well, and cut complex numbers."""
+    if given.dtype.kind == "O":
+        return all(isinstance(element, Real) for element in given.flat)
+    return given.dtype.kind in "biuf"

@@ -32,6 +32,7 @@ from safe.progress import bar as progress_bar
 from safe.robot import WEIGHTS
 from safe.store import Store, StoredExperiment, StoredRun, origin
 
+MOST_SEEDS = 2**128  # as many as numpy draws from where it is asked for a seed
 WEIGHT_COLUMNS = [f"p{i}" for i in range(1, WEIGHTS + 1)]
 
 
@@ -76,8 +77,8 @@ class Experiment:
         for name, value in (
             ("algorithm", get_algorithm(self.algorithm)),
             ("maze", load_maze(self.maze)),
-            ("runs", checks.integer("runs", self.runs, 1)),
-            ("seed", checks.integer("seed", self.seed, 0)),
+            ("runs", checks.integer("runs", self.runs, 1, checks.MOST)),
+            ("seed", checks.integer("seed", self.seed, 0, MOST_SEEDS - 1)),
         ):
             object.__setattr__(self, name, value)
 
@@ -371,7 +372,8 @@ class Batch(NamedTuple):
 def _make(experiment: Experiment, numbers: list[int], stop: np.ndarray) -> Batch:
     """Some runs of an experiment, wherever the executor sends them; those before `stop` where it is set meanwhile."""
     compile_kernels()
-    runs, failure = [], None
+    runs: list[tuple[int, Run, float]] = []
+    failure = None
     for number in numbers:
         started = time.perf_counter()
         seed = experiment.seed_sequence(number)

@@ -80,6 +80,11 @@ def draw_path(axes: Axes, path: np.ndarray) -> None:
     )
 
 
+def _plain(name: str) -> str:
+    """A name as matplotlib takes it for plain text: it reads `$` as mathematics, and leaves `_x` out of legends."""
+    return (" " + name if name.startswith("_") else name).replace("$", r"\$")
+
+
 def _legend_below(figure: Figure, axes: Axes) -> None:
     """One legend for all panels, that of the first."""
     handles, labels = axes.get_legend_handles_labels()
@@ -106,7 +111,7 @@ def plot_paths(rows: Sequence[Sequence[tuple[Maze, np.ndarray | None, str]]]) ->
             draw_maze(axes, maze)
             if path is not None:
                 draw_path(axes, path)
-            axes.set_title(title)
+            axes.set_title(_plain(title))
     _legend_below(figure, grid[0, 0])
     return figure, grid
 
@@ -144,7 +149,7 @@ def plot_sensors(maze: Maze, cell: tuple[int, int], margin: int = 4) -> tuple[Fi
     rows, columns = np.array(reach).T
     axes.set_xlim(columns.min() - margin, columns.max() + margin)
     axes.set_ylim(rows.max() + margin, rows.min() - margin)
-    axes.set_title(f"{maze.name}, the robot in row {row}, column {column}")
+    axes.set_title(_plain(f"{maze.name}, the robot in row {row}, column {column}"))
     return figure, axes
 
 
@@ -162,7 +167,8 @@ def plot_success(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
         error = np.array([rate - rows.low, rows.high - rate]).clip(0)  # an end may pass the rate by a rounding
         axes.errorbar(100 * rate, places, xerr=100 * error, fmt="o", capsize=4, label="here, with 95 % interval")
         axes.plot(100 * rows.paper_successes / rows.paper_runs, places, "x", markersize=9, label="in the paper")
-        axes.set(title=maze, xlabel="runs that succeed, %", yticks=places, yticklabels=rows.index)
+        axes.set(title=_plain(maze), xlabel="runs that succeed, %")
+        axes.set_yticks(places, [_plain(algorithm) for algorithm in rows.index])
         axes.set_ylim(-0.6, len(rows) - 0.4)
         axes.set_xlim(left=min(0, axes.get_xlim()[0]))
         axes.grid(axis="x", alpha=0.3)
@@ -189,9 +195,9 @@ def plot_arrivals(curves: Mapping[tuple[str, str], pd.DataFrame], generations: i
             if of_maze == maze:
                 steps = [0, *curve.generation, generations]
                 share, low, high = ([0, *curve[name], [0, *curve[name]][-1]] for name in ("share", "low", "high"))
-                axes.step(steps, 100 * np.array(share), where="post", label=algorithm)
+                axes.step(steps, 100 * np.array(share), where="post", label=_plain(algorithm))
                 axes.fill_between(steps, 100 * np.array(low), 100 * np.array(high), step="post", alpha=0.2)
-        axes.set(title=maze, xlabel="generation", ylabel="runs that have succeeded, %", ylim=(0, None))
+        axes.set(title=_plain(maze), xlabel="generation", ylabel="runs that have succeeded, %", ylim=(0, None))
         axes.set_xlim(0, generations)
     _legend_below(figure, grid[0, 0])
     return figure, grid[0]
@@ -215,7 +221,7 @@ def plot_coefficients(samples: Mapping[str, pd.DataFrame], table: pd.DataFrame) 
         paper = table.loc[maze].droplevel("weighs")[["paper_mean", "paper_sd"]]
         (a, a_sd), (b, b_sd) = paper.loc[["a", "b"]].to_numpy()
         axes.errorbar(a, b, xerr=a_sd, yerr=b_sd, fmt="x", capsize=4, color=GOAL, label="in the paper, mean and sd")
-        axes.set(title=maze, xlabel="a (closeness)", ylabel="b (novelty)", xlim=(-0.02, 1.05))
+        axes.set(title=_plain(maze), xlabel="a (closeness)", ylabel="b (novelty)", xlim=(-0.02, 1.05))
     _legend_below(figure, grid[0, 0])
     return figure, grid[0]
 
@@ -237,7 +243,7 @@ def plot_weights(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
             axes.errorbar(mean, places + lift, xerr=sd, fmt=marker, capsize=2, linewidth=1, label=label)
         axes.axvline(0, color=FAINT, linewidth=0.8, zorder=0)
         labels = [f"{item}: {weighs}" for item, weighs in rows.index]
-        axes.set(title=maze, xlabel="weight", yticks=places, yticklabels=labels, xlim=(-1.3, 1.3))
+        axes.set(title=_plain(maze), xlabel="weight", yticks=places, yticklabels=labels, xlim=(-1.3, 1.3))
     _legend_below(figure, grid[0, 0])
     return figure, grid[0]
 
@@ -273,7 +279,7 @@ def plot_judging(generations: Mapping[str, Generation]) -> tuple[Figure, np.ndar
     )
     for axes, width, (title, generation) in zip(grid[0], widths, generations.items(), strict=True):
         _draw_judging(axes, generation)
-        axes.set(title=title, xlim=(-2.7, width - 2.7), ylim=(rows - 0.4, -4.7), aspect="equal")
+        axes.set(title=_plain(title), xlim=(-2.7, width - 2.7), ylim=(rows - 0.4, -4.7), aspect="equal")
         axes.set_axis_off()
     return figure, grid[0]
 

@@ -15,6 +15,7 @@ What a robot senses depends only on where it stands, so all of it is computed on
 
 from __future__ import annotations
 
+import errno
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
@@ -85,6 +86,7 @@ class Maze:
     sensors: np.ndarray = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
+        checks.text("name", self.name)
         try:
             walls = np.array(self.walls, dtype=bool, order="C")
         except (TypeError, ValueError):  # rows of different lengths
@@ -119,7 +121,7 @@ class Maze:
         ValueError
             Where the drawing is ragged, holds another character, or has not one start and one goal.
         """
-        rows = [line.strip() for line in text.splitlines() if line.strip()]
+        rows = [line.strip() for line in _lines(text) if line.strip()]
         if not rows:
             raise ValueError("the drawing of a maze must have at least one row; was empty")
         for number, row in enumerate(rows, start=1):
@@ -207,6 +209,8 @@ def load_maze(name_or_path: str | Path | Maze) -> Maze:
         raise ValueError(f"maze must be a Maze, a maze's name or a file's path; was {checks.shown(name_or_path)}")
     path = MAZE_FOLDER / f"{name_or_path}.maze" if name_or_path in names else Path(name_or_path)
     try:
+        if path.exists() and not path.is_file():  # reading a pipe or a device might never end
+            raise OSError(errno.EINVAL, "not a file")
         text = path.read_text(encoding="utf-8")
     except (OSError, ValueError) as error:  # ValueError: no text file, or no path at all
         reason = getattr(error, "strerror", None) or "not a text file"
@@ -272,7 +276,7 @@ def parse_maze(text: str, name: str = "maze") -> Maze:
 
     Walls run along a row, a column or a diagonal. A text is a list where one of its lines begins with `size`.
     """
-    lines = [line.split("#")[0].split() for line in text.splitlines()]
+    lines = [line.split("#")[0].split() for line in _lines(text)]
     if not any(words and words[0] == "size" for words in lines):
         return Maze.from_drawing(text, name)
     single: dict[str, tuple[int, int]] = {}
@@ -283,7 +287,8 @@ def parse_maze(text: str, name: str = "maze") -> Maze:
         key, *pairs = words
         if key not in ("size", "start", "goal", "wall"):
             raise ValueError(
-                f"a line of a maze file must begin with size, start, goal or wall; was {key!r} in line {number}"
+                f"a line of a maze file must begin with size, start, goal or wall; "
+                f"was {checks.shown(key)} in line {number}"
             )
         if len(pairs) != (2 if key == "wall" else 1):
             raise ValueError(f"{key} must be followed by {_FOLLOWS[key]}; was not in line {number}")
@@ -326,10 +331,16 @@ _FOLLOWS = {
 }
 
 
+def _lines(text: str) -> list[str]:
+    if not isinstance(text, str):
+        raise ValueError(f"text must be a str; was {checks.shown(text)}")
+    return text.splitlines()
+
+
 def _pair(text: str, key: str, number: int) -> tuple[int, int]:
     parts = text.split(",")
     if len(parts) != 2 or not all(part.isascii() and part.isdigit() and len(part) < 10 for part in parts):
-        raise ValueError(f"{key} must be followed by {_FOLLOWS[key]}; was {text[:40]!r} in line {number}")
+        raise ValueError(f"{key} must be followed by {_FOLLOWS[key]}; was {checks.shown(text)} in line {number}")
     return int(parts[0]), int(parts[1])
 
 

@@ -13,8 +13,12 @@ from safe import checks, figures
 
 
 def prepare() -> None:
-    """Give figures the style of the book, and let every table carry itself along as CSV, for the book to offer."""
+    """Give figures the style of the book, and let every table carry itself along as CSV, for the book to offer.
+
+    Names in tables are not read as mathematics.
+    """
     figures.use_style()
+    pd.set_option("display.html.use_mathjax", False)
     shell = get_ipython()
     if shell is not None:
         formatter = shell.display_formatter.mimebundle_formatter
@@ -46,7 +50,7 @@ def read_points(text: str) -> np.ndarray:
     Raises
     ------
     ValueError
-        Where there are fewer than two, or one is not two integers.
+        Where there are fewer than two, or one is not two integers of at most a million, either side of 0.
 
     Examples
     --------
@@ -55,6 +59,7 @@ def read_points(text: str) -> np.ndarray:
     """
     try:
         points = [(int(row), int(column)) for row, column in (point.split(",") for point in text.split())]
+        points = points if np.abs(points).max() <= checks.MOST else []
     except (AttributeError, ValueError):
         points = []
     if len(points) < 2:

@@ -26,8 +26,8 @@ from safe.kernel import index, kernel
 METRICS = ("taxicab", "euclidean")
 K = 15
 ARCHIVE_CAPACITY = 1000
-FARTHEST = 1e100  # of a coordinate from 0: squares of distances are still numbers
 RINGS = 24  # of cells around a point that are searched: to go through more would cost more than to measure all
+MOST_DIMENSIONS = 1000  # of a point, for each of which an archive reserves memory
 
 
 class ArchiveArrays(NamedTuple):
@@ -92,10 +92,12 @@ class NoveltyArchive:
         Raises
         ------
         ValueError
-            Where the points are not finite, farther out than 1e100, or have other dimensions than those before.
+            Where the points are not finite, farther out than 1e100, have other dimensions than those before, or
+            not 1..1000 of them.
         """
         dimensions = None if self._arrays is None else len(self._arrays.points)
-        points = checks.array("points", points, (None, dimensions), -FARTHEST, FARTHEST)
+        points = checks.array("points", points, (None, dimensions))
+        checks.integer("the columns of points", points.shape[1], 1, MOST_DIMENSIONS)
         if self._arrays is None:
             self._arrays = empty_archive(self.capacity, points.shape[1])
         scores = np.empty(len(points))
@@ -231,7 +233,7 @@ class Grid(NamedTuple):
 PER_CELL = 4.0  # points in a cell, on average
 SLACK = 1.35  # times as many neighbours are looked for at first as are wanted, so that there are rarely too few
 FEW = 256  # so few values are put in order by comparing all with all
-NEARLY_NOTHING = 1e-150  # an extent below which points count as one: with FARTHEST over it we are still in numbers
+NEARLY_NOTHING = 1e-150  # an extent below which points count as one: even LARGEST over it is a number
 
 
 @kernel

@@ -119,7 +119,7 @@ class Store:
                 self._connection.close()
             raise ValueError(
                 "store must be the path of a results store, or of a file to make; "
-                f"was {checks.shown(str(path))} ({error})"
+                f"was {checks.shown(path)} ({_in_one_line(error)})"
             ) from None
 
     @staticmethod
@@ -180,7 +180,12 @@ class Store:
         try:
             yield
         except sqlite3.Error as error:
-            raise ValueError(f"store must be in order and have room to grow; {self.path} was not ({error})") from None
+            raise ValueError(
+                f"store must be in order and have room to grow; was {self} ({_in_one_line(error)})"
+            ) from None
+
+    def __str__(self) -> str:
+        return checks.shown(str(self.path))
 
     def experiment(self, content: dict, digest: str, algorithm: str, maze: str) -> StoredExperiment:
         """An experiment of this store; it is entered where it is new."""
@@ -203,10 +208,10 @@ class Store:
         for number, its_digest, content, algorithm, maze in rows:
             if not isinstance(content, str) or hashlib.sha256(content.encode()).hexdigest() != its_digest:
                 raise ValueError(
-                    f"store must be as it was left; in {self.path} the experiment {checks.shown(algorithm)} on "
-                    f"{checks.shown(maze)} was altered or damaged"
+                    f"store must be as it was left; was {self}, where experiment {number} was altered or damaged"
                 )
-            found.append(StoredExperiment(number, its_digest, json.loads(content), str(algorithm), str(maze)))
+            labels = checks.text("store", algorithm), checks.text("store", maze)
+            found.append(StoredExperiment(number, its_digest, json.loads(content), *labels))
         return found
 
     def finished(self, experiment: StoredExperiment) -> set[int]:
@@ -268,8 +273,8 @@ class Store:
         for batch, checksum, *row in rows:
             if _checksum(experiment.digest, *row) != checksum:
                 raise ValueError(
-                    f"store must be as it was left; in {self.path} run {checks.shown(row[0])} of "
-                    f"{experiment.algorithm} on {experiment.maze} was altered or damaged"
+                    f"store must be as it was left; was {self}, where run {checks.shown(row[0])} of "
+                    f"{checks.shown(experiment.algorithm)} on {checks.shown(experiment.maze)} was altered or damaged"
                 )
             number, success, generation, distance, controller, coefficients, evaluations, seconds = row
             controller, coefficients = tuple(json.loads(controller)), tuple(json.loads(coefficients))
@@ -319,6 +324,10 @@ def merge(store: str | os.PathLike, other: str | os.PathLike) -> int:
             ):
                 target.add(experiment, source.origin_of(batch), [kept[:3] for kept in of_one_batch])
     return sum(len(runs) for _, runs in news)
+
+
+def _in_one_line(error: Exception) -> str:
+    return " ".join(str(error).split())[:100]
 
 
 def _outcome(run: Run, seconds: float) -> tuple:

@@ -34,11 +34,12 @@ def test_the_papers_parameters():
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        ({"name": ""}, "name must be a text; was ''"),
+        ({"name": ""}, "name must be a text of printable characters; was ''"),
         ({"rating": "by taste"}, "rating must be one of 'none', 'genotypic novelty'; was 'by taste'"),
         ({"objectives": [(1, 0, 0)]}, r"objectives must have the shape \(any, 2\); was of shape \(1, 3\)"),
         ({"objectives": (1, 0)}, r"objectives must have the shape \(any, 2\); was of shape \(2,\)"),
         ({"objectives": [(1, float("inf"))]}, "objectives must be finite"),
+        ({"objectives": [(1e308, -1e308)]}, "objectives must be finite"),  # the sum of infinities is no score
         (
             {"objectives": [(1, 0)] * 3, "rating": "genotypic novelty"},
             "objectives must be an even number of them where they evolve; was 3",

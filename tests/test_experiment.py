@@ -208,10 +208,12 @@ def test_the_digest_that_random_streams_are_spawned_from():
     [
         ({"algorithm": "x"}, "algorithm must be one of"),
         ({"maze": "x"}, "maze must be one of"),
-        ({"runs": 0}, "runs must be an integer of at least 1; was 0"),
-        ({"runs": "500"}, "runs must be an integer of at least 1; was '500'"),
-        ({"seed": -1}, "seed must be an integer of at least 0; was -1"),
-        ({"seed": None}, "seed must be an integer of at least 0; was None"),
+        ({"runs": 0}, "runs must be an integer from 1 to 1000000; was 0"),
+        ({"runs": 10**12}, "runs must be an integer from 1 to 1000000; was 1000000000000"),
+        ({"runs": "500"}, "runs must be an integer from 1 to 1000000; was '500'"),
+        ({"seed": -1}, "seed must be an integer from 0 to 340282366920938463463374607431768211455; was -1"),
+        ({"seed": 10**5000}, "seed must be an integer from 0"),  # which JSON could not write down
+        ({"seed": None}, "seed must be an integer from 0 to 340282366920938463463374607431768211455; was None"),
         ({"parameters": {}}, "parameters must be a Parameters; was {}"),
     ],
 )

@@ -1,6 +1,8 @@
 import base64
+import io
 import json
 import re
+from xml.etree import ElementTree
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -102,6 +104,36 @@ def test_an_animation_needs_nothing_from_elsewhere():
     assert len(sizes) == 1
     assert figures.animate(maze, told[:1]).count("iVBOR") == 1
     assert plt.get_fignums() == []
+
+
+@pytest.mark.parametrize(
+    "name", [r"a_$\frac{$", "$x$", r"\$x\$", "<script>alert(1)</script>", "--><script>", "_hidden"]
+)
+def test_names_are_not_read_as_mathematics_or_markup(name):
+    maze = safe.Maze(MAZE.walls, MAZE.start, MAZE.goal, name)
+    algorithm = safe.Algorithm(name, objectives=[(0.5, 0.5)])
+    results = {safe.Experiment(algorithm, maze): runs(1, 2, [3], a=[0.5, 0.5], b=[0.5, 0.5])}
+    evolved_weights = statistics.evolved_table(results, ["a", "b"])
+    story_of_it = list(safe.generations(maze, algorithm, 0, safe.Parameters(generations=1, population=4)))
+    drawn = [
+        figures.plot_mazes([maze]),
+        figures.plot_sensors(maze, maze.start),
+        figures.plot_success(statistics.success_table(results)),
+        figures.plot_arrivals({(name, name): comparison.arrivals(next(iter(results.values())))}, 9),
+        figures.plot_coefficients({name: next(iter(results.values()))}, evolved_weights),
+        figures.plot_weights(evolved_weights),
+        figures.plot_judging({name: story_of_it[0]}),
+    ]
+    for figure, _ in drawn:
+        with plt.rc_context({"svg.fonttype": "none"}), io.StringIO() as file:
+            figure.savefig(file, format="svg")
+            svg = ElementTree.fromstring(file.getvalue())
+        texts = [text.strip() for text in svg.itertext()]
+        assert any(text.startswith(name) for text in texts), texts
+        assert not any(element.tag.endswith("script") for element in svg.iter())
+    (legend,) = drawn[3][0].legends
+    assert len(legend.get_texts()) == 1
+    assert "<script>alert" not in figures.animate(maze, story_of_it)
 
 
 def test_rates_of_success_with_the_papers():

@@ -1,4 +1,5 @@
 import hashlib
+import os
 import pickle
 
 import numpy as np
@@ -187,6 +188,33 @@ def test_bad_mazes(walls, start, goal, complaint):
 def test_bad_names(name):
     with pytest.raises(ValueError, match="maze must be"):
         load_maze(name)
+
+
+@pytest.mark.parametrize("text", [None, 7, b"S.G", ["S.G"]])
+def test_a_maze_from_what_is_no_text(text):
+    for parse in (Maze.from_drawing, parse_maze):
+        with pytest.raises(ValueError, match="text must be a str; was"):
+            parse(text)
+
+
+@pytest.mark.parametrize("name", ["", "a\nb", "\udcff", None, 7])
+def test_a_maze_whose_name_no_store_or_page_could_hold(name):
+    with pytest.raises(ValueError, match="name must be a text of printable characters; was"):
+        Maze([[0, 0]], (0, 0), (0, 1), name)
+
+
+@pytest.mark.parametrize("line", ["x" * 999, "wall 1,1 " + "x" * 999])
+def test_a_long_line_of_a_maze_file_makes_no_long_message(line):
+    with pytest.raises(ValueError, match="must be") as refused:
+        parse_maze(GOOD + line)
+    assert len(str(refused.value)) < 200
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="a pipe has a name only on Unix")
+def test_a_pipe_is_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(ValueError, match=r"the path of a maze file; was .* \(not a file\)"):
+        load_maze(tmp_path / "pipe")
 
 
 def test_a_file_that_is_no_text(tmp_path):

@@ -20,6 +20,13 @@ def test_a_table_carries_itself_along_as_csv(shell):
     assert "<table" in shown["text/html"]
 
 
+def test_names_in_a_table_are_no_markup(shell):
+    notebook.prepare()
+    shown, _ = shell.display_formatter.format(pd.DataFrame({"n": ["<script>alert(1)</script>"]}, ["$x$"]))
+    assert "<script" not in shown["text/html"]
+    assert "mathjax_ignore" in shown["text/html"]
+
+
 def test_outside_of_jupyter_there_is_nothing_to_prepare_for():
     notebook.prepare()
 
@@ -43,7 +50,7 @@ def test_numbers_are_handed_on_by_column_and_index(shell):
     assert handed_on(pd.DataFrame({"claims": [3]}, ["all"])) == {"claims_all": 3}
 
 
-@pytest.mark.parametrize("text", ["", "0,0", "0,0 1", "0,0 1,2,3", "0,0 a,b", 7])
+@pytest.mark.parametrize("text", ["", "0,0", "0,0 1", "0,0 1,2,3", "0,0 a,b", "0,0 0,1000001", "0,0 1," + "9" * 30, 7])
 def test_points_that_are_none(text):
     with pytest.raises(ValueError, match="points must be two or more of row,column, separated by blanks; was"):
         notebook.read_points(text)

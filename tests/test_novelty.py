@@ -198,3 +198,22 @@ def test_bad_points(points):
     with pytest.raises(ValueError, match="points must"):
         archive.score(points)
     assert len(archive) == 1
+
+
+@pytest.mark.parametrize("metric", DISTANCES)
+def test_points_so_far_apart_that_their_distance_would_be_infinite(metric):
+    with pytest.raises(ValueError, match="points must be finite and in"):
+        NoveltyArchive(metric=metric).score([[1e308], [-1e308]])
+    assert np.isfinite(NoveltyArchive(metric=metric).score([[1e100], [-1e100]])).all()
+
+
+@pytest.mark.parametrize("columns", [0, 1001])
+def test_points_without_a_coordinate_or_with_more_than_an_archive_reserves_memory_for(columns):
+    with pytest.raises(ValueError, match=f"the columns of points must be an integer from 1 to 1000; was {columns}"):
+        NoveltyArchive().score(np.zeros((2, columns)))
+
+
+def test_a_huge_k_costs_no_more_than_the_neighbours_there_are():
+    points = np.random.default_rng(1).random((200, 2))
+    all_neighbours, huge = (NoveltyArchive(k=k).score(points) * k for k in (400, 1_000_000))
+    assert huge == pytest.approx(all_neighbours)

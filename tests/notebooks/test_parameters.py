@@ -14,7 +14,7 @@ mpl.use("agg")
 
 BAD = {  # parameter: value, what the error says
     "maze": ("maze3", "maze must be one of 'maze1', 'maze2' or the path of a maze file; was 'maze3'"),
-    "runs": (0, "runs must be an integer of at least 1; was 0"),
+    "runs": (0, "runs must be an integer from 1 to 1000000; was 0"),
     "seed": (-1, "seed must be .*; was -1"),
     "store": (".", "store must be .*; was"),
     "run": (-1, "run must be an integer of at least 0; was -1"),
