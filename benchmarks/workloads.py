@@ -21,15 +21,14 @@ from safe.evolution import (
     NOVELTY,
     Settings,
     State,
-    _rate_objectives,
     _start,
     _step_by_step,
+    advance,
     best_scores,
-    drive,
 )
 from safe.kernel import kernel
-from safe.novelty import score_cells
-from safe.operators import breed
+from safe.novelty import score_cells, score_points
+from safe.operators import breed, copy_genomes
 from safe.robot import walk_all
 
 SEED = 1
@@ -104,7 +103,7 @@ def workload(
 @kernel
 def robot(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.genomes)):
-        walk_all(settings.maze, run.genomes[g], settings.steps, state.trail, state.stood_at, state.endpoints)
+        walk_all(settings.maze, run.genomes[g], settings.steps, state.walk_space, state.endpoints)
 
 
 @kernel
@@ -123,26 +122,26 @@ def fitness(state: State, settings: Settings, rng: np.random.Generator, run: Rec
 def breeding(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.genomes)):
         breed(run.genomes[g], run.fitness[g], settings.breeding, rng, state.offspring)
-        state.genomes[:] = state.offspring
+        copy_genomes(state.offspring, state.genomes)
 
 
 @kernel
 def objective_functions(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.objectives)):
-        state.objectives[:] = run.objectives[g]
-        _rate_objectives(state, settings)
+        score_points(run.objectives[g], state.objective_archive, settings.k, False, state.objective_fitness)
 
 
 @kernel
 def breeding_of_objective_functions(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.objectives)):
         breed(run.objectives[g], run.objective_fitness[g], settings.objective_breeding, rng, state.objective_offspring)
-        state.objectives[:] = state.objective_offspring
+        copy_genomes(state.objective_offspring, state.objectives)
 
 
 @kernel
 def whole_generation(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
-    drive(state, settings, rng)
+    while advance(state, settings, rng):
+        pass
 
 
 PARTS = {

@@ -37,7 +37,7 @@ from safe.maze import Maze, MazeArrays, load_maze
 from safe.novelty import ArchiveArrays, archived, empty_archive, empty_crowd, score_cells, score_points
 from safe.operators import Breeding, breed, copy_genomes, draw_genomes
 from safe.progress import while_compiling
-from safe.robot import WEIGHTS, walk_all, walk_space
+from safe.robot import WEIGHTS, WalkSpace, walk_all, walk_space
 
 RULES = 1  # raised whenever a change alters what any run gives
 
@@ -179,8 +179,7 @@ class State(NamedTuple):
     # worked in, of no meaning between generations:
     offspring: np.ndarray
     objective_offspring: np.ndarray
-    trail: np.ndarray
-    stood_at: np.ndarray
+    walk_space: WalkSpace
 
 
 def _start(
@@ -216,7 +215,6 @@ def _start(
         breeding=Breeding(*rates, low=-1.0, high=1.0),
         objective_breeding=Breeding(*rates, low=0.0, high=1.0),
     )
-    trail, stood_at = walk_space(maze.shape, parameters.steps)
     n, m = len(genomes), len(objectives)
     state = State(
         genomes=genomes,
@@ -236,8 +234,7 @@ def _start(
         best_distance=np.array([np.iinfo(np.int64).max]),
         offspring=np.empty_like(genomes),
         objective_offspring=np.empty_like(objectives),
-        trail=trail,
-        stood_at=stood_at,
+        walk_space=walk_space(maze.shape, parameters.steps),
     )
     return state, settings, rng
 
@@ -324,7 +321,7 @@ def advance(state: State, settings: Settings, rng: np.random.Generator) -> bool:
 @kernel
 def _evaluate(state: State, settings: Settings) -> None:
     """End points, components, fitness."""
-    walk_all(settings.maze, state.genomes, settings.steps, state.trail, state.stood_at, state.endpoints)
+    walk_all(settings.maze, state.genomes, settings.steps, state.walk_space, state.endpoints)
     goal_row, goal_column = settings.maze.goal
     for i in range(len(state.genomes)):
         distance = abs(state.endpoints[i, 0] - goal_row) + abs(state.endpoints[i, 1] - goal_column)

@@ -253,8 +253,10 @@ def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, 
         )
         if remade != kept.run:
             raise ValueError(
-                f"store must hold what its experiments make; in {store} run {kept.number} of {found.algorithm} on "
-                f"{found.maze}, seed {experiment.seed}, is {checks.shown(kept.run)}, and made again {remade}"
+                f"store must hold what its experiments make; was {checks.shown(str(store))}, where run {kept.number} "
+                f"of {found.algorithm} on {found.maze}, seed {experiment.seed}, ends {kept.run.distance} from the goal in "
+                f"generation {kept.run.generation}, and made again {remade.distance} in {remade.generation}, or with "
+                "another controller"
             )
         same.append((found.algorithm, found.maze, experiment.seed, kept.number, remade.success, remade.generation))
     return pd.DataFrame(same, columns=["algorithm", "maze", "seed", "run", "success", "generation"])
@@ -269,7 +271,7 @@ def _as_experiment(stored: StoredExperiment) -> Experiment:
         parameters=Parameters(**content["parameters"]),
     )
     if experiment.digest != stored.digest:
-        raise ValueError(f"store must hold experiments of this version; was {stored.algorithm} on {stored.maze}")
+        raise ValueError(f"store must hold experiments of this version; had {stored.algorithm} on {stored.maze}")
     return experiment
 
 

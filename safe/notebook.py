@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from concurrent.futures import Executor
 
 import numpy as np
 import pandas as pd
@@ -35,6 +36,35 @@ def hand_on(table: pd.DataFrame) -> None:
     display({"application/json": numbers, "text/plain": f"{len(numbers)} numbers"}, raw=True)
 
 
+def executor_at(scheduler: str, patience: float = 10) -> Executor | None:
+    """What computes runs: the workers of a Dask scheduler; None, which stands for the cores of this machine, for "".
+
+    Parameters
+    ----------
+    scheduler : str
+        Its address, such as "tcp://host:8786".
+    patience : float
+        Seconds to wait for it.
+
+    Raises
+    ------
+    ValueError
+        Where no scheduler answers there, or Dask is not installed.
+    """
+    if scheduler == "":
+        return None
+    try:
+        from distributed import Client  # not in every environment, and slow to import
+
+        return Client(checks.text("scheduler", scheduler), timeout=patience).get_executor()
+    except (ImportError, OSError, ValueError) as error:
+        reason = " ".join(str(error).split())[:150]
+        raise ValueError(
+            "scheduler must be the address of a running Dask scheduler, or empty; "
+            f"was {checks.shown(scheduler)} ({reason})"
+        ) from None
+
+
 def show_page(page: str, instead: str) -> None:
     """Show HTML, and a text where there is none, as in print."""
     display({"text/html": page, "text/plain": instead}, raw=True)
@@ -60,7 +90,7 @@ def read_points(text: str) -> np.ndarray:
     try:
         points = [(int(row), int(column)) for row, column in (point.split(",") for point in text.split())]
         points = points if np.abs(points).max() <= checks.MOST else []
-    except (AttributeError, ValueError):
+    except (AttributeError, TypeError, ValueError):
         points = []
     if len(points) < 2:
         raise ValueError(f"points must be two or more of row,column, separated by blanks; was {checks.shown(text)}")

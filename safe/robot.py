@@ -14,6 +14,8 @@ to a cell therefore repeats from there for ever, and its end follows without wal
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from safe import checks
@@ -59,9 +61,8 @@ def path(maze: Maze | str, controller: np.ndarray, steps: int = STEPS) -> np.nda
     maze = load_maze(maze)
     controller = checks.array("controller", controller, (WEIGHTS,), -1, 1)
     steps = checks.integer("steps", steps, 0, checks.MOST)
-    trail, stood_at = walk_space(maze.shape, steps)
     cells = np.empty((steps + 1, 2), dtype=np.int64)
-    walk_path(maze.arrays, controller, steps, trail, stood_at, cells)
+    walk_path(maze.arrays, controller, steps, walk_space(maze.shape, steps), cells)
     return cells
 
 
@@ -96,15 +97,26 @@ def endpoints(maze: Maze | str, controllers: np.ndarray, steps: int = STEPS) -> 
     controllers = checks.array("controllers", controllers, (None, WEIGHTS), -1, 1)
     steps = checks.integer("steps", steps, 0, checks.MOST)
     ends = np.empty((len(controllers), 2), dtype=np.int64)
-    trail, stood_at = walk_space(maze.shape, steps)
-    walk_all(maze.arrays, controllers, steps, trail, stood_at, ends)
+    walk_all(maze.arrays, controllers, steps, walk_space(maze.shape, steps), ends)
     return ends
 
 
-def walk_space(shape: tuple[int, int], steps: int) -> tuple[np.ndarray, np.ndarray]:
-    """The two arrays that `walk` works in: the trail, and for every cell when it was last stood on."""
-    most_cells = min(steps, shape[0] * shape[1])
-    return np.empty((most_cells + 1, 2), dtype=np.int16), np.full(shape, -1, dtype=np.int64)
+class WalkSpace(NamedTuple):
+    """What walks are worked out in, of no meaning between them."""
+
+    trail: np.ndarray  # int16, (most cells of a walk, 2): row and column of the cells that the robot has stood on
+    stood_at: np.ndarray  # int64, (height, width): the time when it last stood on a cell
+    clock: np.ndarray  # int64, (1,): the time, which goes on from walk to walk, so that nothing need be cleared
+
+
+def walk_space(shape: tuple[int, int], steps: int) -> WalkSpace:
+    """The space for walks of so many steps in a maze of this shape."""
+    most_cells = min(steps, shape[0] * shape[1]) + 1
+    return WalkSpace(
+        trail=np.empty((most_cells, 2), dtype=np.int16),
+        stood_at=np.full(shape, -1, dtype=np.int64),
+        clock=np.zeros(1, dtype=np.int64),
+    )
 
 
 # Compiled functions
@@ -119,8 +131,7 @@ def walk(
     The cells go into `trail`. Returns how many of them there are, and the index of the cell to which
     the path has come back (the last cell where it has not).
 
-    `clock` is a number larger than all in `stood_at`: a cell that holds less was last stood on in another walk,
-    so that nothing need be cleared between walks.
+    A cell that holds less than `clock` in `stood_at` was last stood on in another walk.
     """
     walls, sensors, (row, column), _ = maze
     height, width = walls.shape
@@ -162,12 +173,12 @@ def walk_path(
     maze: MazeArrays,
     controller: np.ndarray,
     steps: int,
-    trail: np.ndarray,
-    stood_at: np.ndarray,
+    space: WalkSpace,
     cells: np.ndarray,
 ) -> None:
     """Put the cell of every step of one controller's walk into `cells`."""
-    length, loop_start = walk(maze, controller, steps, trail, stood_at, 0)
+    trail, stood_at, clock = space
+    length, loop_start = walk(maze, controller, steps, trail, stood_at, clock[0])
     for step in range(steps + 1):
         cell = cell_at_step(step, length, loop_start)
         cells[step, 0] = trail[cell, 0]
@@ -179,14 +190,14 @@ def walk_all(
     maze: MazeArrays,
     controllers: np.ndarray,
     steps: int,
-    trail: np.ndarray,
-    stood_at: np.ndarray,
+    space: WalkSpace,
     ends: np.ndarray,
 ) -> None:
     """Put the end of each controller's walk into `ends`."""
-    stood_at[:] = -1
+    trail, stood_at, clock = space
     for i in range(len(controllers)):
-        length, loop_start = walk(maze, controllers[i], steps, trail, stood_at, i * (steps + 1))
+        length, loop_start = walk(maze, controllers[i], steps, trail, stood_at, clock[0])
+        clock[0] += steps + 1
         cell = cell_at_step(steps, length, loop_start)
         ends[i, 0] = trail[cell, 0]
         ends[i, 1] = trail[cell, 1]

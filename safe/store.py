@@ -150,9 +150,10 @@ class Store:
         if not _has_tables(connection):
             _execute_all(connection, _EXPERIMENTS_AND_BATCHES + _RUNS)
             connection.execute(f"PRAGMA application_id = {_APPLICATION}")
+            connection.execute(f"PRAGMA user_version = {_LAYOUT}")
         elif _layout(connection) == 1:
             _add_checksums(connection)
-        connection.execute(f"PRAGMA user_version = {_LAYOUT}")
+            connection.execute(f"PRAGMA user_version = {_LAYOUT}")
         connection.execute("COMMIT")
 
     def __enter__(self) -> Store:
@@ -184,6 +185,9 @@ class Store:
                 f"store must be in order and have room to grow; was {self} ({_in_one_line(error)})"
             ) from None
 
+    def _damaged(self, what: str) -> ValueError:
+        return ValueError(f"store must be as it was left; was {self}, where {what} was altered or damaged")
+
     def __str__(self) -> str:
         return checks.shown(str(self.path))
 
@@ -194,22 +198,23 @@ class Store:
                 "INSERT OR IGNORE INTO experiments (digest, content, algorithm, maze) VALUES (?, ?, ?, ?)",
                 (digest, json.dumps(content, sort_keys=True), algorithm, maze),
             )
-        (found,) = self.experiments(digest)
-        return found
+        found = self.experiments(digest)
+        if len(found) != 1:  # as many as a damaged index says
+            raise self._damaged("its list of experiments")
+        return found[0]
 
     def experiments(self, digest: str | None = None) -> list[StoredExperiment]:
         """The experiments in this store, or that with this digest."""
         with self._telling():
             rows = self._connection.execute(
-                "SELECT id, digest, content, algorithm, maze FROM experiments WHERE ? IN (digest, '') ORDER BY id",
-                (digest or "",),
+                "SELECT id, digest, content, algorithm, maze FROM experiments"
+                " WHERE ?1 IS NULL OR digest = ?1 ORDER BY id",
+                (digest,),
             ).fetchall()
         found = []
         for number, its_digest, content, algorithm, maze in rows:
             if not isinstance(content, str) or hashlib.sha256(content.encode()).hexdigest() != its_digest:
-                raise ValueError(
-                    f"store must be as it was left; was {self}, where experiment {number} was altered or damaged"
-                )
+                raise self._damaged(f"experiment {number}")
             labels = checks.text("store", algorithm), checks.text("store", maze)
             found.append(StoredExperiment(number, its_digest, json.loads(content), *labels))
         return found
@@ -272,10 +277,8 @@ class Store:
         found = []
         for batch, checksum, *row in rows:
             if _checksum(experiment.digest, *row) != checksum:
-                raise ValueError(
-                    f"store must be as it was left; was {self}, where run {checks.shown(row[0])} of "
-                    f"{checks.shown(experiment.algorithm)} on {checks.shown(experiment.maze)} was altered or damaged"
-                )
+                label = f"{checks.shown(experiment.algorithm)} on {checks.shown(experiment.maze)}"
+                raise self._damaged(f"run {checks.shown(row[0])} of {label}")
             number, success, generation, distance, controller, coefficients, evaluations, seconds = row
             controller, coefficients = tuple(json.loads(controller)), tuple(json.loads(coefficients))
             run = Run(bool(success), generation, distance, controller, coefficients, evaluations)

@@ -1,12 +1,18 @@
 import hashlib
 import json
+import os
 import sqlite3
+from contextlib import closing
+from dataclasses import replace
 
+import pandas as pd
 import pytest
 
+from safe import Experiment, Parameters, merge, run, verify
 from safe.evolution import Run
 from safe.store import Store, origin
 
+EXPERIMENT = Experiment("safe", "maze1", runs=12, seed=3, parameters=Parameters(generations=4))
 RUN = Run(True, 141, 2, (0.1, -1e-300, 1 / 3), (0.85, 0.99), 28_400)
 
 
@@ -80,3 +86,167 @@ def test_files_that_are_no_store(tmp_path):
         with pytest.raises(ValueError, match="store must be the path"):
             Store(nonsense)
     assert (tmp_path / "foreign").read_bytes() == before
+
+
+# What a store may have gone through: a table is right, or there is one clear line
+
+
+@pytest.fixture
+def store(tmp_path):
+    """The path of a store with an experiment of twelve runs."""
+    path = tmp_path / "s.sqlite"
+    run(EXPERIMENT, path, progress=False)
+    return path
+
+
+def assert_refused(store, reason):
+    with pytest.raises(ValueError, match=rf"^store must .*; was .*{reason}") as caught:
+        run(EXPERIMENT, store, progress=False)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        "UPDATE runs SET success = 1 WHERE run = 7",
+        "UPDATE runs SET distance = distance + 1 WHERE run = 7",
+        "UPDATE runs SET controller = replace(controller, '0.1', '0.2') WHERE run = 7",
+        "UPDATE runs SET seconds = 0 WHERE run = 7",
+        "UPDATE runs SET run = 70 WHERE run = 7",
+        "UPDATE runs SET generation = NULL WHERE run = 7",
+        "UPDATE experiments SET content = replace(content, '3', '4')",
+    ],
+)
+def test_altered_by_hand(store, change):
+    with closing(sqlite3.connect(store)) as connection:
+        try:
+            connection.execute(change)
+        except sqlite3.IntegrityError:  # the file itself refuses
+            return
+        connection.commit()
+    if "run = 70" in change:  # not one of the twelve: that which is missing is made again
+        assert len(run(EXPERIMENT, store, progress=False)) == 12
+        assert_refused_by(lambda: run(replace(EXPERIMENT, runs=80), store, progress=False))
+    else:
+        assert_refused(store, "was altered or damaged")
+    assert_refused_by(lambda: verify(store, progress=False))
+
+
+def assert_refused_by(call):
+    with pytest.raises(ValueError, match=r"^store must be as it was left; was .* was altered or damaged"):
+        call()
+
+
+def test_a_deleted_run_is_made_again(store):
+    before = run(EXPERIMENT, store, progress=False)
+    with closing(sqlite3.connect(store)) as connection:
+        connection.execute("DELETE FROM runs WHERE run = 7")
+        connection.commit()
+    pd.testing.assert_frame_equal(
+        run(EXPERIMENT, store, progress=False).drop(columns="seconds"), before.drop(columns="seconds")
+    )
+
+
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
+def test_cut_off(store, share):
+    content = store.read_bytes()
+    store.write_bytes(content[: int(share * len(content))])
+    assert_refused(store, r"\(database disk image is malformed\)")
+
+
+def test_disk_full(tmp_path, monkeypatch):
+    really = Store._set_up
+
+    def on_a_small_disk(connection):
+        really(connection)
+        connection.execute("PRAGMA max_page_count = 10")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Store, "_set_up", staticmethod(on_a_small_disk))
+        with pytest.raises(ValueError, match=r"store must .*; was .*\(database or disk is full\)") as caught:
+            run(replace(EXPERIMENT, runs=200), tmp_path / "s.sqlite", progress=False)
+    kept = int(caught.value.__notes__[0].split()[0])
+    assert 0 < kept < 200
+    with Store(tmp_path / "s.sqlite") as store:
+        assert len(store.runs(store.experiments()[0])) == kept
+    assert len(run(replace(EXPERIMENT, runs=200), tmp_path / "s.sqlite", progress=False)) == 200
+
+
+def test_a_folder_that_cannot_be_written(tmp_path):
+    tmp_path.chmod(0o555)
+    user = os.geteuid()
+    if user == 0:  # who may write everywhere
+        os.seteuid(65534)
+    try:
+        assert_refused(tmp_path / "s.sqlite", r"\((unable to open database file|.*[Pp]ermission denied).*\)")
+    finally:
+        os.seteuid(user)
+        tmp_path.chmod(0o755)
+
+
+def test_a_store_of_the_first_layout_gets_checksums(store):
+    before = run(EXPERIMENT, store, progress=False)
+    with closing(sqlite3.connect(store)) as connection:
+        connection.executescript("""
+            CREATE TABLE old AS SELECT * FROM runs;
+            ALTER TABLE old DROP COLUMN checksum;
+            DROP TABLE runs;
+            ALTER TABLE old RENAME TO runs;
+            PRAGMA user_version = 1;
+        """)
+    pd.testing.assert_frame_equal(run(EXPERIMENT, store, progress=False), before)
+    assert len(verify(store, sample=3, progress=False)) == 3
+
+
+# Several stores
+
+
+def test_stores_of_a_class_are_merged(tmp_path):
+    """Each has made some of the runs, and some of them the same."""
+    for name, (runs, seed) in {"a": (5, 3), "b": (8, 3), "c": (4, 4)}.items():
+        run(replace(EXPERIMENT, runs=runs, seed=seed), tmp_path / name, progress=False)
+    assert merge(tmp_path / "all", tmp_path / "a") == 5
+    assert merge(tmp_path / "all", tmp_path / "b") == 3
+    assert merge(tmp_path / "all", tmp_path / "c") == 4
+    assert merge(tmp_path / "all", tmp_path / "b") == merge(tmp_path / "all", tmp_path / "all") == 0
+    assert set(verify(tmp_path / "all", sample=100, progress=False).value_counts("seed").items()) == {(3, 8), (4, 4)}
+    with Store(tmp_path / "all") as together, Store(tmp_path / "b") as b:
+        runs, made = (store.runs(store.experiments()[0]) for store in (together, b))
+        assert together.origin_of(runs[7].batch) == b.origin_of(made[7].batch)
+        assert [r.seconds for r in runs[5:]] == [r.seconds for r in made[5:]]
+
+
+def test_stores_that_disagree_are_not_merged(store, tmp_path):
+    with Store(tmp_path / "other") as other, Store(store) as ours:
+        (found,) = ours.experiments()
+        theirs = other.experiment(found.content, found.digest, found.algorithm, found.maze)
+        runs = ours.runs(found)
+        wrong = replace(runs[3].run, distance=runs[3].run.distance + 1)
+        other.add(theirs, origin(), [(3, wrong, 1.0), (100, wrong, 1.0)])
+    before = store.read_bytes()
+    with pytest.raises(
+        ValueError, match=r"other must agree with the store; was .*other.*, where run 3 of safe on maze1"
+    ):
+        merge(store, tmp_path / "other")
+    with pytest.raises(ValueError, match=r"store must be the path of a results store.*there is no such file"):
+        merge(store, tmp_path / "none")
+    assert store.read_bytes() == before
+    assert not (tmp_path / "none").exists()
+
+
+def test_a_run_that_its_experiment_does_not_make(store):
+    """With its checksum right: only making it again tells."""
+    assert len(verify(store, sample=5, seed=1, progress=False)) == 5
+    assert verify(store, sample=5, seed=1, progress=False).equals(verify(store, sample=5, seed=1, progress=False))
+    with Store(store) as results:
+        (found,) = results.experiments()
+        (first, *_) = results.runs(found)
+        results.add(found, origin(), [(12, first.run, 1.0)])
+    with pytest.raises(ValueError, match=r"store must hold what its experiments make; was .* run 12 of safe on maze1"):
+        verify(store, sample=13, progress=False)
+
+
+@pytest.mark.parametrize(("sample", "seed"), [(0, None), ("all", None), (1, -1)])
+def test_bad_samples(store, sample, seed):
+    with pytest.raises(ValueError, match=r"(sample|seed) must be an integer"):
+        verify(store, sample, seed)
