@@ -18,7 +18,11 @@ from pathlib import Path
 import nbformat
 import papermill
 
+import safe
 from executed import EXECUTED, NOTEBOOKS, ROOT, STAMP, notebooks, requested_parameters, stamp, what_is_wrong
+
+STORE = "results.sqlite"  # of the notebooks
+SAMPLE = 5  # runs in it that are made again at the end
 
 
 def execute(notebook: Path, parameters: dict[str, object]) -> None:
@@ -96,6 +100,12 @@ def main() -> None:
         except papermill.PapermillExecutionError as error:
             sys.exit(f"{label}: {error.ename}: {error.evalue} (the whole of it is in {unfinished_copy(notebook)})")
         print(f"{label}: {time.perf_counter() - started:.1f} s", flush=True)
+    if not options.names:
+        try:
+            same = safe.verify(ROOT / given.get("store", STORE), SAMPLE)
+        except ValueError as error:
+            sys.exit(f"the results are not to be trusted: {error}")
+        print(f"{len(same)} stored runs, drawn at random, were made again: they are the same", flush=True)
 
 
 if __name__ == "__main__":

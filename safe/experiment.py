@@ -254,9 +254,9 @@ def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, 
         if remade != kept.run:
             raise ValueError(
                 f"store must hold what its experiments make; was {checks.shown(str(store))}, where run {kept.number} "
-                f"of {found.algorithm} on {found.maze}, seed {experiment.seed}, ends {kept.run.distance} from the goal in "
-                f"generation {kept.run.generation}, and made again {remade.distance} in {remade.generation}, or with "
-                "another controller"
+                f"of {found.algorithm} on {found.maze}, seed {experiment.seed}, ends {kept.run.distance} from the "
+                f"goal in generation {kept.run.generation}, and made again {remade.distance} in {remade.generation}, "
+                "or with another controller"
             )
         same.append((found.algorithm, found.maze, experiment.seed, kept.number, remade.success, remade.generation))
     return pd.DataFrame(same, columns=["algorithm", "maze", "seed", "run", "success", "generation"])

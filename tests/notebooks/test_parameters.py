@@ -16,6 +16,7 @@ BAD = {  # parameter: value, what the error says
     "maze": ("maze3", "maze must be one of 'maze1', 'maze2' or the path of a maze file; was 'maze3'"),
     "runs": (0, "runs must be an integer from 1 to 1000000; was 0"),
     "seed": (-1, "seed must be .*; was -1"),
+    "scheduler": ("nowhere", "scheduler must be the address of a running Dask scheduler, or empty; was 'nowhere'"),
     "store": (".", "store must be .*; was"),
     "run": (-1, "run must be an integer of at least 0; was -1"),
     "row": (1000, r"cell must be a \(row, column\) within the 100 by 100 cells; was \(1000, 60\)"),
