@@ -170,7 +170,7 @@ def score_cells(cells: np.ndarray, archive: ArchiveArrays, crowd: np.ndarray, k:
         wanted = min(k, n - 1 + size)
         total = _sum_over_rings(RINGS + row, RINGS + column, crowd, wanted)
         if total < 0:
-            total = _sum_over_all(row, column, cells, archive.points, size, wanted)
+            total = _sum_over_all(row, column, crowd, cells, archive.points, size, wanted)
         scores[i] = total / k
         if scores[i] > threshold:
             place = vacate(archive)
@@ -205,21 +205,22 @@ def _sum_over_rings(row: int, column: int, crowd: np.ndarray, wanted: int) -> in
 
 @kernel
 def _sum_over_all(
-    row: int, column: int, cells: np.ndarray, archived_points: np.ndarray, archived_size: int, wanted: int
+    row: int, column: int, crowd: np.ndarray, cells: np.ndarray, archived: np.ndarray, size: int, wanted: int
 ) -> int:
-    """The same sum, with the distance of every point measured."""
-    n = len(cells)
-    distances = np.empty(n + archived_size)
-    for j in range(n):
-        distances[j] = abs(cells[j, 0] - row) + abs(cells[j, 1] - column)
-    for j in range(archived_size):
-        distances[n + j] = abs(archived_points[0, j] - row) + abs(archived_points[1, j] - column)
-    nearest = np.empty(max(len(distances), wanted + 1))
-    _smallest(distances, len(distances), wanted + 1, nearest)  # with the point itself, at a distance of 0
-    total = 0.0
-    for j in range(wanted + 1):
-        total += nearest[j]
-    return int(total)
+    """The same sum, by the distances of all cells and of the `size` points of the archive: how many are at each?"""
+    at_distance = np.zeros(crowd.shape[0] + crowd.shape[1], dtype=np.int64)
+    for j in range(len(cells)):
+        at_distance[abs(cells[j, 0] - row) + abs(cells[j, 1] - column)] += 1
+    for j in range(size):
+        at_distance[abs(int(archived[0, j]) - row) + abs(int(archived[1, j]) - column)] += 1
+    found = at_distance[0] - 1  # without the point itself
+    total = 0
+    distance = 0
+    while found < wanted:
+        distance += 1
+        total += distance * min(at_distance[distance], wanted - found)
+        found += at_distance[distance]
+    return total
 
 
 class Grid(NamedTuple):
@@ -232,7 +233,7 @@ class Grid(NamedTuple):
 
 PER_CELL = 4.0  # points in a cell, on average
 SLACK = 1.35  # times as many neighbours are looked for at first as are wanted, so that there are rarely too few
-FEW = 256  # so few values are put in order by comparing all with all
+MANY = 1000  # values, or three times as many as are wanted, are better not put in order by comparing all with all
 NEARLY_NOTHING = 1e-150  # an extent below which points count as one: even LARGEST over it is a number
 
 
@@ -415,16 +416,16 @@ def _along_axis(difference: float, taxicab: bool) -> float:
 @kernel
 def _smallest(values: np.ndarray, size: int, wanted: int, ascending: np.ndarray) -> None:
     """Put the `wanted` smallest of the first `size` values, none of them negative, in order into `ascending`."""
-    if size > FEW:  # one after the other to its place among the smallest so far
+    if size > min(3 * wanted, MANY):
         for j in range(wanted):
             ascending[j] = np.inf
-        for i in range(size):
-            if values[i] < ascending[wanted - 1]:
-                j = wanted - 1
-                while j > 0 and ascending[j - 1] > values[i]:
-                    ascending[j] = ascending[j - 1]
-                    j -= 1
-                ascending[j] = values[i]
+        for i in range(size):  # the smallest so far are a heap, the largest of them at its top
+            if values[i] < ascending[0]:
+                _sink(values[i], ascending, wanted)
+        for last in range(wanted - 1, 0, -1):
+            largest = ascending[0]
+            _sink(ascending[last], ascending, last)
+            ascending[last] = largest
         return
     for j in range(size):
         ascending[j] = -1.0
@@ -436,6 +437,20 @@ def _smallest(values: np.ndarray, size: int, wanted: int, ascending: np.ndarray)
         ascending[smaller] = value
     for j in range(1, size):  # equal ones went to the same place
         ascending[j] = max(ascending[j], ascending[j - 1])
+
+
+@kernel
+def _sink(value: float, heap: np.ndarray, size: int) -> None:
+    """Put a value in the place of the largest, at the top of a heap, and let it sink below all that are larger."""
+    node, child = 0, 1
+    while child < size:
+        if child + 1 < size and heap[child + 1] > heap[child]:
+            child += 1
+        if heap[child] <= value:
+            break
+        heap[node] = heap[child]
+        node, child = child, 2 * child + 1
+    heap[node] = value
 
 
 @kernel
