@@ -43,7 +43,7 @@ fuzz: .venv/installed-for-fuzzing ## CASES malformed inputs (100000), with bound
 		$(BOUNDS_CHECKED) $(BIN)/python -m tests.fuzz_atheris "damaged stores" 2000; \
 	else echo "No wheel of atheris for this system: without the cases that it would make up."; fi
 
-bench: .venv/installed-for-bench ## time the parts, the paper's experiments and their peers, with RUNS runs of each (500)
+bench: .venv/installed-for-tests ## time the parts, the paper's experiments and their peers, with RUNS runs of each (500)
 	$(BIN)/pytest benchmarks --benchmark-json=benchmarks/results.json --benchmark-columns=median,iqr,rounds
 
 format: .venv/installed-for-tests ## bring the code into its form
@@ -69,13 +69,9 @@ clean: ## remove what can be made again, but for the environment and the results
 	touch $@
 
 .venv/installed-for-tests: .venv/installed
-	$(INSTALL) --editable .[test]
-	touch $@
-
-.venv/installed-for-bench: .venv/installed
-	$(INSTALL) --editable .[bench]
+	$(INSTALL) --editable .[test,bench]
 	touch $@
 
 .venv/installed-for-fuzzing: .venv/installed-for-tests
-	$(INSTALL) --editable .[test,fuzz]
+	$(INSTALL) --editable .[fuzz]
 	touch $@

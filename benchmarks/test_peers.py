@@ -148,6 +148,11 @@ def in_python(kind, generation):
     return oracle.novelty(generation.points.tolist(), archive, K, kind.in_oracle)
 
 
+def add(archive, points):
+    """What pyribs does with a generation: novelty, all of it added, and the tree built anew."""
+    archive.add(np.zeros((len(points), 1)), None, points)
+
+
 def by_pyribs(compute):
     """Novelty in the archive alone, without the population, of an archive that is filled, its tree built, beforehand.
 
@@ -163,8 +168,11 @@ def by_pyribs(compute):
             archives.append(ProximityArchive(solution_dim=1, measure_dim=2, k_neighbors=K, novelty_threshold=0))
             archives[-1].add(np.zeros((n, 1)), None, generation.archive)
             assert len(archives[-1]) == n
-        pairs = list(zip(archives, timed, strict=True))
-        return lambda: [compute(archive, generation.points) for archive, generation in pairs], tuple
+
+        def work(archives):
+            return [compute(archive, generation.points) for archive, generation in zip(archives, timed, strict=True)]
+
+        return work, lambda: (copy.deepcopy(archives),)
 
     return prepare
 
@@ -183,6 +191,7 @@ METHODS = {
     "numpy brute force": Method(at_once(by_brute_force), 50),
     "scipy cKDTree": Method(at_once(by_tree), 50),
     "pyribs ProximityArchive, batch": Method(by_pyribs(lambda archive, points: archive.compute_novelty(points)), 50),
+    "pyribs ProximityArchive, batch added": Method(by_pyribs(add), 50),
     "pyribs ProximityArchive, one at a time": Method(
         by_pyribs(lambda archive, points: [archive.compute_novelty(point[np.newaxis]) for point in points]), 10
     ),

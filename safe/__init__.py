@@ -6,11 +6,11 @@ and Their Objective Functions", EuroGP 2019, doi 10.1007/978-3-030-16670-0_10.
 
 from safe.algorithms import ALGORITHMS, Algorithm, Parameters
 from safe.evolution import Generation, Run, evolve, generations
-from safe.experiment import Experiment, run, run_all, verify
+from safe.experiment import Experiment, run, run_all
 from safe.maze import Maze, load_maze
 from safe.novelty import NoveltyArchive
 from safe.robot import endpoints, path
-from safe.store import merge
+from safe.stores import merge, verify
 from safe.version import __version__
 
 __all__ = [

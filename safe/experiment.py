@@ -26,7 +26,7 @@ import pandas as pd
 
 from safe import checks
 from safe.algorithms import COEFFICIENTS, Algorithm, Parameters, get_algorithm
-from safe.evolution import RULES, Generation, Run, compile_kernels, evolve, evolve_unless, generations
+from safe.evolution import RULES, Generation, Run, compile_kernels, evolve_unless, generations
 from safe.maze import Maze, load_maze
 from safe.progress import bar as progress_bar
 from safe.robot import WEIGHTS
@@ -108,6 +108,7 @@ class Experiment:
         Examples
         --------
         >>> experiment = Experiment("random", "maze1", parameters=Parameters(generations=2))
+        >>> from safe import evolve
         >>> replayed = evolve("maze1", "random", experiment.seed_sequence(7), experiment.parameters)
         >>> replayed.distance == int(run(experiment, progress=False).distance[7])
         True
@@ -200,81 +201,6 @@ def run_all(
     return {experiment: run(experiment, store, executor) for experiment in experiments}
 
 
-def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, progress: bool = True) -> pd.DataFrame:
-    """Make some of the runs in a store again, and compare them with what is stored, to the last bit.
-
-    The checksums of all runs are looked at, too. Runs made by rules that have since changed are left out.
-
-    Parameters
-    ----------
-    store : path
-        The store.
-    sample : int
-        How many runs, drawn at random from all experiments; all where there are no more.
-    seed : int, optional
-        Of the draw; by default every time another.
-    progress : bool
-        As in `run`.
-
-    Returns
-    -------
-    pandas.DataFrame
-        One row for each run that was made again and is the same: algorithm, maze, seed, run, and its outcome.
-
-    Raises
-    ------
-    ValueError
-        Where the file is no store, or a run is not what its experiment makes.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     table = run(Experiment("standard", "maze1", 3, parameters=Parameters(generations=2)), f"{folder}/store")
-    ...     len(verify(f"{folder}/store"))
-    3
-    """
-    sample = checks.integer("sample", sample, 1)
-    draw = np.random.default_rng(None if seed is None else checks.integer("seed", seed, 0))
-    with Store(store, must_exist=True) as results:
-        stored = [
-            (experiment, kept)
-            for experiment in results.experiments()
-            if experiment.content["rules"] == RULES
-            for kept in results.runs(experiment)
-        ]
-    same = []
-    chosen = draw.choice(len(stored), min(sample, len(stored)), replace=False)
-    for which in progress_bar("verifying", iterable=chosen, unit="run", **({} if progress else {"disable": True})):
-        found, kept = stored[which]
-        experiment = _as_experiment(found)
-        remade = evolve(
-            experiment.maze, experiment.algorithm, experiment.seed_sequence(kept.number), experiment.parameters
-        )
-        if remade != kept.run:
-            raise ValueError(
-                f"store must hold what its experiments make; was {checks.shown(str(store))}, where run {kept.number} "
-                f"of {found.algorithm} on {found.maze}, seed {experiment.seed}, ends {kept.run.distance} from the "
-                f"goal in generation {kept.run.generation}, and made again {remade.distance} in {remade.generation}, "
-                "or with another controller"
-            )
-        same.append((found.algorithm, found.maze, experiment.seed, kept.number, remade.success, remade.generation))
-    return pd.DataFrame(same, columns=["algorithm", "maze", "seed", "run", "success", "generation"])
-
-
-def _as_experiment(stored: StoredExperiment) -> Experiment:
-    content = stored.content
-    experiment = Experiment(
-        Algorithm(stored.algorithm, **content["algorithm"]),
-        Maze.from_drawing(content["maze"], stored.maze),
-        seed=content["seed"],
-        parameters=Parameters(**content["parameters"]),
-    )
-    if experiment.digest != stored.digest:
-        raise ValueError(f"store must hold experiments of this version; had {stored.algorithm} on {stored.maze}")
-    return experiment
-
-
 def _compute(
     experiment: Experiment,
     stored: StoredExperiment,
@@ -292,64 +218,71 @@ def _compute(
     back: SimpleQueue[Future] = SimpleQueue()
     runs, seconds, successes = 0, 0.0, results.successes(stored, experiment.runs)
 
-    def keep(future: Future) -> None:
-        nonlocal runs, seconds, successes
-        batch = future.result()
-        if batch.rules != RULES:
-            raise ValueError(f"executor must compute by the rules {RULES} of this version; was {batch.rules}")
-        results.add(stored, batch.origin, batch.runs)
-        if batch.failure is not None:
-            raise batch.failure
-        runs += len(batch.runs)
-        seconds += sum(duration for _, _, duration in batch.runs)
-        successes += sum(outcome.success for _, outcome, _ in batch.runs)
-        bar.set_postfix(successes=successes, refresh=False)
-        bar.update(len(batch.runs))
-
     def send() -> None:
         """Batches of one run until it is known how long a run takes."""
         while waiting and len(in_flight) < (MOST_IN_FLIGHT if runs else FIRST_IN_FLIGHT):
             size = _batch_size(len(waiting), seconds / runs) if runs else 1
-            numbers = [waiting.popleft() for _ in range(size)]
-            future = pool.submit(_make, experiment, numbers, stop)
+            future = pool.submit(_make, experiment, [waiting.popleft() for _ in range(size)], stop)
             in_flight.add(future)
             future.add_done_callback(back.put)
 
-    with progress_bar(
+    bar = progress_bar(
         f"{experiment.algorithm.name} on {experiment.maze.name}",
         total=experiment.runs,
         initial=experiment.runs - len(missing),
         unit="run",
         **({} if progress else {"disable": True}),
-    ) as bar:
-        try:
+    )
+    try:
+        send()
+        while in_flight:
+            future = back.get()
+            batch = _keep(future, results, stored)
+            in_flight.discard(future)  # not before: what an interruption leaves is kept below
+            if batch.failure is not None:
+                raise batch.failure
+            runs += len(batch.runs)
+            seconds += sum(duration for _, _, duration in batch.runs)
+            successes += sum(outcome.success for _, outcome, _ in batch.runs)
+            bar.set_postfix(successes=successes, refresh=False)
+            bar.update(len(batch.runs))
             send()
-            while in_flight:
-                future = back.get()
-                keep(future)
-                in_flight.discard(future)  # not before: what is interrupted is kept below
-                send()
-        except BaseException as error:
-            stop[0] = True
+    except BaseException as error:
+        stop[0] = True
+        for future in in_flight:
+            future.cancel()
+        if executor is None:
+            pool.shutdown()
+        with suppress(ValueError):  # of the store, where that is what has gone wrong
             for future in in_flight:
-                future.cancel()
-            if executor is None:
-                pool.shutdown()
-            with suppress(ValueError):  # of the store, where that is what has gone wrong
-                for future in in_flight:
-                    if future.done() and not future.cancelled() and future.exception() is None:
-                        results.add(stored, future.result().origin, future.result().runs)
-            kept = len(results.finished(stored).intersection(range(experiment.runs)))
-            error.add_note(
-                f"{kept} of {experiment.runs} runs are kept in {results.path}; "
-                "the same experiment asked for again computes the rest"
-                if results.path is not None
-                else f"{kept} of {experiment.runs} runs were finished; without a store they are not kept"
-            )
-            raise
-        finally:
-            if executor is None:
-                pool.shutdown()
+                if future.done() and not future.cancelled() and future.exception() is None:
+                    _keep(future, results, stored)
+        with suppress(ValueError):
+            error.add_note(_what_is_kept(experiment, results, stored))
+        raise
+    finally:
+        bar.close()
+        if executor is None:
+            pool.shutdown()
+
+
+def _keep(future: Future, results: Store, stored: StoredExperiment) -> Batch:
+    """Keep what has come back."""
+    batch = future.result()
+    if batch.rules != RULES:
+        raise ValueError(f"executor must compute by the rules {RULES} of this version; was {batch.rules}")
+    results.add(stored, batch.origin, batch.runs)
+    return batch
+
+
+def _what_is_kept(experiment: Experiment, results: Store, stored: StoredExperiment) -> str:
+    kept = len(results.finished(stored).intersection(range(experiment.runs)))
+    if results.path is None:
+        return f"{kept} of {experiment.runs} runs were finished; without a store they are not kept"
+    return (
+        f"{kept} of {experiment.runs} runs are kept in {results.path}; "
+        "the same experiment asked for again computes the rest"
+    )
 
 
 FIRST_IN_FLIGHT = 16

@@ -248,6 +248,51 @@ def plot_weights(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
     return figure, grid[0]
 
 
+def plot_parts(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
+    """What the parts of a generation cost (see `speed.parts_table`): one panel a maze, one bar an algorithm."""
+    mazes = table.index.unique("maze")
+    parts = table.drop(columns="all")
+    figure, grid = plt.subplots(1, len(mazes), figsize=(4 * len(mazes), 2.9), squeeze=False, sharex=True)
+    for axes, maze in zip(grid[0], mazes, strict=True):
+        rows = parts.loc[maze].iloc[::-1].fillna(0)
+        left = np.zeros(len(rows))
+        for part in rows:
+            axes.barh([_plain(name) for name in rows.index], rows[part], left=left, label=part, height=0.6)
+            left += rows[part].to_numpy()
+        axes.set(title=_plain(maze), xlabel="microseconds a generation")
+    _legend_below(figure, grid[0, 0])
+    return figure, grid[0]
+
+
+VARIED = {  # what grows, in words
+    "population": "solutions, and as many objective functions",
+    "archive": "places in an archive",
+    "k": "k, nearest neighbours",
+    "steps": "steps of a robot",
+    "maze": "cells along a side of the maze",
+    "runs": "runs of an experiment",
+}
+
+
+def plot_growth(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
+    """How the cost grows with each size that is varied (see `speed.growth_table`), on logarithmic axes."""
+    whats = table.what.unique()
+    figure, grid = plt.subplots(-(-len(whats) // 2), 2, figsize=(8, 2.9 * -(-len(whats) // 2)), squeeze=False)
+    for axes, what in zip(grid.flat, whats, strict=False):
+        rows = table[table.what == what]
+        for label, line in rows.groupby("of", sort=False):
+            axes.plot(line["size"], 1000 * line.seconds, "o-", markersize=4, label=_plain(label))
+        # as steep as what grows in proportion; 0 has no place on a logarithmic axis but at its edge
+        axes.set(xscale="symlog" if rows["size"].min() == 0 else "log", yscale="log", xlabel=VARIED.get(what, what))
+        sizes = np.array(sorted(rows["size"][rows["size"] > 0]))[[0, -1]]
+        axes.plot(sizes, 1000 * rows.seconds.min() * sizes / sizes[0], ":", color=FAINT, label="in proportion")
+        axes.set_ylabel("milliseconds")
+        axes.legend(fontsize="x-small")
+    for axes in grid.flat[len(whats) :]:
+        axes.set_axis_off()
+    return figure, grid
+
+
 def plot_neighbours(points: np.ndarray, neighbours: Sequence[Sequence[int]]) -> tuple[Figure, Axes]:
     """Points (row, column), shape (n, 2), lettered from A, each joined with its neighbours along rows and columns."""
     points = np.asarray(points)

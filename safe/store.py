@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import functools
 import hashlib
-import itertools
 import json
 import os
 import platform
@@ -237,8 +236,9 @@ class Store:
         """Keep finished runs (number, run, seconds). One that another process kept meanwhile stays: it is the same."""
         if not runs:
             return
+        key = experiment.id, *origin.values()
         with self.changing() as connection:
-            batch = self._batch(connection, experiment, origin)
+            batch = self._batches.get(key) or self._enter_batch(connection, experiment, origin)
             for number, run, seconds in runs:
                 row = number, *_outcome(run, seconds)
                 connection.execute(
@@ -246,26 +246,28 @@ class Store:
                     " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
                     (experiment.id, batch, *row, _checksum(experiment.digest, *row)),
                 )
+        self._batches[key] = batch
 
-    def _batch(
-        self, connection: sqlite3.Connection, experiment: StoredExperiment, origin: dict[str, str | None]
+    @staticmethod
+    def _enter_batch(
+        connection: sqlite3.Connection, experiment: StoredExperiment, origin: dict[str, str | None]
     ) -> int:
-        key = experiment.id, *origin.values()
-        if key not in self._batches:
-            provenance = {"time": datetime.now(UTC).isoformat(timespec="seconds"), **origin}
-            marks = ", ".join("?" * len(provenance))
-            self._batches[key] = connection.execute(
-                f"INSERT INTO batches (experiment, {_quoted(provenance)}) VALUES (?, {marks})",
-                (experiment.id, *provenance.values()),
-            ).lastrowid
-        return self._batches[key]
+        provenance = {"time": datetime.now(UTC).isoformat(timespec="seconds"), **origin}
+        marks = ", ".join("?" * len(provenance))
+        return connection.execute(
+            f"INSERT INTO batches (experiment, {_quoted(provenance)}) VALUES (?, {marks})",
+            (experiment.id, *provenance.values()),
+        ).lastrowid
 
     def origin_of(self, batch: int) -> dict[str, str | None]:
         """What made the runs of a batch, and when."""
         columns = [*origin(), "time"]
         with self._telling():
             query = f"SELECT {_quoted(columns)} FROM batches WHERE id = ?"
-            return dict(zip(columns, self._connection.execute(query, (batch,)).fetchone(), strict=True))
+            row = self._connection.execute(query, (batch,)).fetchone()
+        if row is None:
+            raise self._damaged(f"batch {checks.shown(batch)}")
+        return dict(zip(columns, row, strict=True))
 
     def runs(self, experiment: StoredExperiment, below: int | None = None) -> list[StoredRun]:
         """The kept runs of an experiment, those with a number below `below`, in order."""
@@ -284,49 +286,6 @@ class Store:
             run = Run(bool(success), generation, distance, controller, coefficients, evaluations)
             found.append(StoredRun(number, run, seconds, batch))
         return found
-
-
-def merge(store: str | os.PathLike, other: str | os.PathLike) -> int:
-    """Put all runs of another store into this one: those that it has already once, and where each comes from.
-
-    Parameters
-    ----------
-    store : path
-        The store that grows; made where there is none.
-    other : path
-        The other store; it stays as it is.
-
-    Returns
-    -------
-    int
-        How many runs are new in the store.
-
-    Raises
-    ------
-    ValueError
-        Where one of them is no store, or they have different outcomes of the same run. Nothing is merged then.
-    """
-    with Store(other, must_exist=True) as source, Store(store) as target:
-        news = []
-        for theirs in source.experiments():
-            ours = {kept.number: kept.run for known in target.experiments(theirs.digest) for kept in target.runs(known)}
-            runs = source.runs(theirs)
-            for number, run, _, _ in runs:
-                if ours.get(number, run) != run:
-                    raise ValueError(
-                        f"other must agree with the store; was {checks.shown(str(other))}, where run {number} of "
-                        f"{theirs.algorithm} on {theirs.maze} ends {run.distance} from the goal in generation "
-                        f"{run.generation}, and in {store} {ours[number].distance} in {ours[number].generation}, "
-                        "or with another controller: see what made either in their tables of batches"
-                    )
-            news.append((theirs, [kept for kept in runs if kept.number not in ours]))
-        for theirs, runs in news:
-            experiment = target.experiment(theirs.content, theirs.digest, theirs.algorithm, theirs.maze)
-            for batch, of_one_batch in itertools.groupby(
-                sorted(runs, key=lambda kept: kept.batch), lambda kept: kept.batch
-            ):
-                target.add(experiment, source.origin_of(batch), [kept[:3] for kept in of_one_batch])
-    return sum(len(runs) for _, runs in news)
 
 
 def _in_one_line(error: Exception) -> str:

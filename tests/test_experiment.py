@@ -1,8 +1,3 @@
-import os
-import signal
-import subprocess
-import sys
-import time
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 
@@ -12,7 +7,6 @@ import pytest
 import safe
 from safe import Algorithm, Experiment, Maze, Parameters, run
 from safe import experiment as module
-from safe.store import Store
 
 SHORT = Parameters(generations=4)
 EXPERIMENT = Experiment("safe", "maze1", runs=12, seed=3, parameters=SHORT)
@@ -76,6 +70,39 @@ def test_the_executor_does_not_matter(uninterrupted):
             pd.testing.assert_frame_equal(results(EXPERIMENT, executor=executor), uninterrupted)
 
 
+def test_short_runs_travel_together_and_long_ones_alone():
+    executor = InThisThread()
+    table = results(replace(EXPERIMENT, runs=600), executor=executor)
+    assert executor.runs == len(table) == 600
+    assert executor.batches < 300
+    assert module._batch_size(10_000, seconds=0.01) == 50
+    assert module._batch_size(10_000, seconds=9.0) == 1
+    # towards the end few, so that nobody waits for one who has many left
+    assert module._batch_size(64, seconds=1e-4) == 2
+    assert module._batch_size(1, seconds=1e-4) == 1
+
+
+def test_what_computes_by_other_rules_is_refused(tmp_path):
+    class Elsewhere(InThisThread):
+        def submit(self, *arguments):
+            future = super().submit(*arguments)
+            other = Future()
+            other.set_result(future.result()._replace(rules=99))
+            return other
+
+    with pytest.raises(ValueError, match="executor must compute by the rules 1 of this version; was 99"):
+        results(EXPERIMENT, tmp_path / "s.sqlite", Elsewhere())
+    rest = InThisThread()
+    results(EXPERIMENT, tmp_path / "s.sqlite", rest)
+    assert rest.runs == 12
+
+
+@pytest.mark.parametrize("executor", [7, "threads", ThreadPoolExecutor])
+def test_what_is_no_executor(executor):
+    with pytest.raises(ValueError, match=r"executor must be a concurrent\.futures\.Executor; was"):
+        run(EXPERIMENT, executor=executor)
+
+
 def test_a_callers_executor_is_left_open():
     with ThreadPoolExecutor(2) as pool:
         results(EXPERIMENT, executor=pool)
@@ -124,57 +151,6 @@ def test_a_failing_run_is_told_and_the_others_are_kept(tmp_path, monkeypatch, un
     assert rest.runs == 1
 
 
-# long enough to be stopped in the middle, on a slow machine too
-LONG = Experiment("safe", "maze2", runs=80, seed=5, parameters=Parameters(generations=120))
-SCRIPT = """
-import signal, sys, safe
-signal.signal(signal.SIGINT, signal.default_int_handler)  # a process in the background may have been told to ignore it
-safe.run(safe.Experiment("safe", "maze2", runs=80, seed=5, parameters=safe.Parameters(generations=120)), sys.argv[1])
-"""
-
-
-@pytest.fixture(scope="module")
-def long_uninterrupted():
-    return results(LONG)
-
-
-def stored(path):
-    """What is kept of the long experiment."""
-    with Store(path) as store:
-        return store.runs(store.experiment(LONG.content, LONG.digest, "safe", "maze2"))
-
-
-@pytest.mark.parametrize("sent", [signal.SIGKILL, signal.SIGINT])
-def test_killed_and_asked_for_again(tmp_path, sent, long_uninterrupted):
-    """A real process, stopped in the middle: what was finished is in the table of the one that goes on."""
-    store = tmp_path / "s.sqlite"
-    process = subprocess.Popen([sys.executable, "-c", SCRIPT, store], stderr=subprocess.PIPE, text=True)
-    kept = []
-    while len(kept) < 4:
-        assert process.poll() is None, process.stderr.read()
-        time.sleep(0.02)
-        if store.exists():
-            kept = stored(store)
-    process.send_signal(sent)
-    _, complaint = process.communicate(timeout=30)
-    assert process.returncode != 0
-    assert sent == signal.SIGKILL or "of 80 runs are kept" in complaint
-    kept = stored(store)
-    assert 4 <= len(kept) < 80
-    resumed = run(LONG, store, progress=False)
-    assert resumed.seconds[[run.number for run in kept]].tolist() == [run.seconds for run in kept]
-    pd.testing.assert_frame_equal(resumed.drop(columns="seconds"), long_uninterrupted)
-
-
-def test_processes_that_run_the_same_into_one_new_store(tmp_path, long_uninterrupted):
-    store = tmp_path / "s.sqlite"
-    processes = [subprocess.Popen([sys.executable, "-c", SCRIPT, store]) for _ in range(3)]
-    assert [process.wait(timeout=120) for process in processes] == [0, 0, 0]
-    executor = InThisThread()
-    pd.testing.assert_frame_equal(results(LONG, store, executor), long_uninterrupted)
-    assert executor.runs == 0
-
-
 def test_what_an_experiment_is():
     same = [
         replace(EXPERIMENT, runs=500),
@@ -220,28 +196,3 @@ def test_the_digest_that_random_streams_are_spawned_from():
 def test_bad_experiments(arguments, complaint):
     with pytest.raises(ValueError, match=complaint):
         Experiment(**{"algorithm": "safe", "maze": "maze1", **arguments})
-
-
-@pytest.mark.skipif(os.name != "posix", reason="needs a pseudo-terminal")
-def test_progress_in_a_terminal_and_silence_in_a_log():
-    import pty
-    import termios
-
-    code = (
-        "import safe; safe.run(safe.Experiment('standard', 'maze1', runs=3, parameters=safe.Parameters(generations=2)))"
-    )
-    log = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert log.stderr == log.stdout == ""
-    ours, theirs = pty.openpty()
-    termios.tcsetwinsize(theirs, (24, 100))
-    with subprocess.Popen([sys.executable, "-c", code], stderr=theirs):
-        os.close(theirs)
-        shown = b""
-        while True:
-            try:
-                shown += os.read(ours, 1000)
-            except OSError:  # the other side is closed
-                break
-    os.close(ours)
-    assert b"standard on maze1: 100%" in shown
-    assert b"successes=0" in shown
