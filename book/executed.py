@@ -1,9 +1,9 @@
 """Executed copies of the notebooks: how they are made and recognised as stale, and how the book takes them in.
 
 Notebooks are committed without outputs. `book/execute.py` executes each into the folder `executed`, with a stamp in its
-metadata: the digests of the notebook and of the package, and the parameters. As a Sphinx extension, this module
-puts the executed copy in the place of the notebook when a page is read, so that links to the source still lead to the
-clean notebook, and stops the build where a copy is missing or stale.
+metadata: the digests of the notebook, of the package and of the measurements, and the parameters. As a Sphinx
+extension, this module puts the executed copy in the place of the notebook when a page is read, so that links to the
+source still lead to the clean notebook, and stops the build where a copy is missing or stale.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from sphinx.util.typing import ExtensionMetadata
 ROOT = Path(__file__).parent.parent
 NOTEBOOKS = ROOT / "notebooks"
 EXECUTED = ROOT / "executed"
+MEASUREMENTS = ROOT / "benchmarks" / "results.json"
 STAMP = "executed_from"  # key in the metadata of an executed copy
 
 
@@ -45,6 +46,7 @@ def stamp(notebook: Path, parameters: dict[str, object]) -> dict[str, object]:
     return {
         "notebook": hashlib.sha256(notebook.read_bytes()).hexdigest(),
         "package": package.hexdigest(),
+        "measurements": hashlib.sha256(MEASUREMENTS.read_bytes()).hexdigest(),
         "parameters": parameters,
     }
 

@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 RUNS = "4"
-PARTS = ["_config.yml", "book", "notebooks", "safe"]
+PARTS = ["_config.yml", "benchmarks", "book", "notebooks", "safe"]
 
 
 def call(folder, *command, runs=RUNS):

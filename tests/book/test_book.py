@@ -200,16 +200,19 @@ def test_what_is_up_to_date_is_not_executed_again(checkout):
     assert again.stdout.count("up to date") == len(list((checkout / "notebooks").glob("*.ipynb")))
 
 
-@pytest.mark.parametrize("change", ["notebook", "package", "runs", "missing"])
+@pytest.mark.parametrize("change", ["notebook", "package", "measurements", "runs", "missing"])
 def test_stale_copies_are_refused(checkout, change):
     notebook = checkout / "notebooks" / "table2-success.ipynb"
     copy, module = checkout / "executed" / notebook.name, checkout / "safe" / "robot.py"
-    before = {file: file.read_bytes() for file in (notebook, copy, module)}
+    measurements = checkout / "benchmarks" / "results.json"
+    before = {file: file.read_bytes() for file in (notebook, copy, module, measurements)}
     runs = RUNS
     if change == "notebook":
         notebook.write_bytes(before[notebook].replace(b"Who finds the goal", b"Who ever finds the goal"))
     elif change == "package":
         module.write_bytes(before[module] + b"# changed\n")
+    elif change == "measurements":
+        measurements.write_bytes(before[measurements] + b"\n")
     elif change == "runs":
         runs = "5"
     else:
@@ -230,7 +233,11 @@ def test_stale_copies_are_refused(checkout, change):
 @pytest.mark.parametrize(
     ("arguments", "runs", "complaint"),
     [
-        (["table2-success", "-p", "run", "5.5"], RUNS, "parameter must be one of maze, runs, seed, store; was run"),
+        (
+            ["table2-success", "-p", "run", "5.5"],
+            RUNS,
+            "parameter must be one of maze, runs, scheduler, seed, store; was run",
+        ),
         (["table3"], RUNS, "notebook must be one of coefficients, .*; was 'table3'"),
         ([], "many", "RUNS must be an integer of at least 1; was 'many'"),
         ([], "0", "RUNS must be an integer of at least 1; was '0'"),

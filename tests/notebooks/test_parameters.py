@@ -16,6 +16,7 @@ BAD = {  # parameter: value, what the error says
     "maze": ("maze3", "maze must be one of 'maze1', 'maze2' or the path of a maze file; was 'maze3'"),
     "runs": (0, "runs must be an integer from 1 to 1000000; was 0"),
     "seed": (-1, "seed must be .*; was -1"),
+    "measured": ("none.json", "measured must be the path of measurements; was 'none.json' .No such file or directory."),
     "scheduler": ("nowhere", "scheduler must be the address of a running Dask scheduler, or empty; was 'nowhere'"),
     "store": (".", "store must be .*; was"),
     "run": (-1, "run must be an integer of at least 0; was -1"),
@@ -71,6 +72,7 @@ S...#....
 .#.###.#.
 ...#...#G
 """
+MEASURED = str(Path(__file__).parents[2] / "benchmarks" / "results.json")
 SMALL = {"runs": 2, "repeats": 1, "row": 0, "column": 2, "paths": 2}
 
 
@@ -79,5 +81,5 @@ def test_a_maze_of_ones_own(notebook, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("mine.txt").write_text(MAZE)
     known = papermill.inspect_notebook(notebook)
-    parameters = SMALL | {"maze": "mine.txt", "store": "results.sqlite"}
+    parameters = SMALL | {"maze": "mine.txt", "store": "results.sqlite", "measured": MEASURED}
     run(notebook, **{name: value for name, value in parameters.items() if name in known})
