@@ -24,6 +24,7 @@ Both call `advance`, and give the same run, bit for bit.
 from __future__ import annotations
 
 import functools
+import threading
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 from typing import NamedTuple
@@ -119,9 +120,17 @@ def evolve_unless(
     return _run(state, settings) if drive(state, settings, rng, stop) else None
 
 
-@functools.cache
 def compile_kernels() -> None:
     """Compile what a run takes, or load what is compiled: then no run waits for it, and none counts it as its time."""
+    with _compiling:  # of several threads one compiles, and the others wait
+        _compile_kernels()
+
+
+_compiling = threading.Lock()
+
+
+@functools.cache
+def _compile_kernels() -> None:
     parameters = Parameters(population=4, objectives=4, generations=2, archive=2)
     with while_compiling():
         drive(*_start(Maze.from_drawing("S.G"), "safe", 0, parameters), np.zeros(1, dtype=bool))

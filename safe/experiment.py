@@ -14,7 +14,7 @@ import os
 import time
 from collections import deque
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from functools import cached_property
@@ -136,7 +136,8 @@ def run(
 ) -> pd.DataFrame:
     """The results of an experiment: those in the store, and the missing ones, computed now.
 
-    Every run is kept in the store as soon as it is finished, so an interrupted experiment goes on where it stopped.
+    Runs are computed in batches of about half a second, and kept in the store as these come back, so an interrupted
+    experiment goes on where it stopped.
 
     Parameters
     ----------
@@ -228,10 +229,10 @@ def _compute(
 
     bar = progress_bar(
         f"{experiment.algorithm.name} on {experiment.maze.name}",
+        progress,
         total=experiment.runs,
         initial=experiment.runs - len(missing),
         unit="run",
-        **({} if progress else {"disable": True}),
     )
     try:
         send()
@@ -251,8 +252,7 @@ def _compute(
         stop[0] = True
         for future in in_flight:
             future.cancel()
-        if executor is None:
-            pool.shutdown()
+        wait(in_flight, timeout=None if executor is None else 0.5)  # threads stop after a generation
         with suppress(ValueError):  # of the store, where that is what has gone wrong
             for future in in_flight:
                 if future.done() and not future.cancelled() and future.exception() is None:

@@ -230,9 +230,10 @@ def score_points(points: np.ndarray, archive: ArchiveArrays, k: int, taxicab: bo
         return
     counts, capacity = archive.counts, len(archive.scores)
     grid = grid_over(points, n + counts[0])
-    most_newcomers = 1 + int(math.sqrt(n + capacity))
+    most_members = n + min(capacity, counts[0] + n)
+    most_newcomers = 1 + int(math.sqrt(most_members))
     # population and archive, cell by cell; then who entered the archive since, in any order
-    members = np.zeros((max(dimensions, 2), n + capacity + most_newcomers))  # points on a line get a second coordinate
+    members = np.zeros((max(dimensions, 2), most_members + most_newcomers))  # points on a line get a second coordinate
     ends = np.empty(grid.sides[0] * grid.sides[1] + 1, dtype=np.int64)  # a 0, and where in `members` each cell ends
     places = np.empty(capacity, dtype=np.int64)  # where in `members` the archive's points are
     size = in_cells = sort_into_cells(grid, points, archive.points, counts[0], members, ends, places)

@@ -11,9 +11,9 @@ import numba.core.event
 from tqdm import tqdm
 
 
-def bar(description: str, **options: object) -> tqdm:
-    """A tqdm bar with these options of tqdm's; silent where nobody watches."""
-    return tqdm(desc=description, **{"disable": not _is_watched(), "mininterval": 0.5, **options})
+def bar(description: str, progress: bool = True, **options: object) -> tqdm:
+    """A tqdm bar with these options of tqdm's; silent where nobody watches, or without `progress`."""
+    return tqdm(desc=description, disable=not (progress and _is_watched()), mininterval=0.5, **options)
 
 
 @contextmanager
@@ -36,7 +36,8 @@ class _Compilations(numba.core.event.Listener):
             self.bar = bar("compiling, once on this machine", bar_format="{desc}: {n_fmt} functions [{elapsed}]")
 
     def on_end(self, event: numba.core.event.Event) -> None:
-        self.bar.update()
+        if self.bar is not None:  # it is, where another thread began to compile before
+            self.bar.update()
 
 
 def _is_watched() -> bool:

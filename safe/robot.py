@@ -179,6 +179,7 @@ def walk_path(
     """Put the cell of every step of one controller's walk into `cells`."""
     trail, stood_at, clock = space
     length, loop_start = walk(maze, controller, steps, trail, stood_at, clock[0])
+    clock[0] += steps + 1
     for step in range(steps + 1):
         cell = cell_at_step(step, length, loop_start)
         cells[step, 0] = trail[cell, 0]

@@ -73,6 +73,9 @@ _RUNS = """
     ) WITHOUT ROWID;
 """
 _OUTCOME = "success, generation, distance, controller, coefficients, evaluations, seconds"
+_INSERT_RUN = (
+    f"INSERT INTO runs (experiment, batch, run, {_OUTCOME}, checksum) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"
+)
 
 
 class StoredExperiment(NamedTuple):
@@ -113,9 +116,11 @@ class Store:
                 raise ValueError("there is no such file")
             self._connection = self._open(path)
             self._set_up(self._connection)
-        except (sqlite3.Error, OSError, TypeError, ValueError) as error:
+        except BaseException as error:
             if self._connection is not None:
-                self._connection.close()
+                self._connection.close()  # or else an interruption would leave it open, and the file locked
+            if not isinstance(error, sqlite3.Error | OSError | TypeError | ValueError):
+                raise
             raise ValueError(
                 "store must be the path of a results store, or of a file to make; "
                 f"was {checks.shown(path)} ({_in_one_line(error)})"
@@ -145,6 +150,8 @@ class Store:
             raise ValueError(f"made by a newer version, with layout {layout}; this one reads up to {_LAYOUT}")
         _switch_to_wal(connection)
         connection.execute("PRAGMA synchronous = NORMAL")
+        if not is_new and layout == _LAYOUT:
+            return
         connection.execute("BEGIN IMMEDIATE")  # of two processes that make the file, one waits for the other
         if not _has_tables(connection):
             _execute_all(connection, _EXPERIMENTS_AND_BATCHES + _RUNS)
@@ -162,11 +169,13 @@ class Store:
         self._connection.close()
 
     @contextmanager
-    def changing(self) -> Iterator[sqlite3.Connection]:
+    def _changing(self) -> Iterator[sqlite3.Connection]:
         """All changes that are made in this context, or none of them."""
         with self._telling():
-            self._connection.execute("BEGIN IMMEDIATE")
+            if self._connection.in_transaction:  # which an interruption has left
+                self._connection.execute("ROLLBACK")
             try:
+                self._connection.execute("BEGIN IMMEDIATE")
                 yield self._connection
                 self._connection.execute("COMMIT")
             except BaseException:
@@ -181,7 +190,7 @@ class Store:
             yield
         except sqlite3.Error as error:
             raise ValueError(
-                f"store must be in order and have room to grow; was {self} ({_in_one_line(error)})"
+                f"store must be in order, free to be written, and have room to grow; was {self} ({_in_one_line(error)})"
             ) from None
 
     def _damaged(self, what: str) -> ValueError:
@@ -192,9 +201,9 @@ class Store:
 
     def experiment(self, content: dict, digest: str, algorithm: str, maze: str) -> StoredExperiment:
         """An experiment of this store; it is entered where it is new."""
-        with self.changing() as connection:
+        with self._changing() as connection:
             connection.execute(
-                "INSERT OR IGNORE INTO experiments (digest, content, algorithm, maze) VALUES (?, ?, ?, ?)",
+                "INSERT INTO experiments (digest, content, algorithm, maze) VALUES (?, ?, ?, ?) ON CONFLICT DO NOTHING",
                 (digest, json.dumps(content, sort_keys=True), algorithm, maze),
             )
         found = self.experiments(digest)
@@ -214,7 +223,7 @@ class Store:
         for number, its_digest, content, algorithm, maze in rows:
             if not isinstance(content, str) or hashlib.sha256(content.encode()).hexdigest() != its_digest:
                 raise self._damaged(f"experiment {number}")
-            labels = checks.text("store", algorithm), checks.text("store", maze)
+            labels = (label if _is_plain(label) else checks.shown(label) for label in (algorithm, maze))
             found.append(StoredExperiment(number, its_digest, json.loads(content), *labels))
         return found
 
@@ -237,13 +246,12 @@ class Store:
         if not runs:
             return
         key = experiment.id, *origin.values()
-        with self.changing() as connection:
+        with self._changing() as connection:
             batch = self._batches.get(key) or self._enter_batch(connection, experiment, origin)
             for number, run, seconds in runs:
                 row = number, *_outcome(run, seconds)
                 connection.execute(
-                    f"INSERT OR IGNORE INTO runs (experiment, batch, run, {_OUTCOME}, checksum)"
-                    " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                    f"{_INSERT_RUN} ON CONFLICT DO NOTHING",
                     (experiment.id, batch, *row, _checksum(experiment.digest, *row)),
                 )
         self._batches[key] = batch
@@ -269,12 +277,13 @@ class Store:
             raise self._damaged(f"batch {checks.shown(batch)}")
         return dict(zip(columns, row, strict=True))
 
-    def runs(self, experiment: StoredExperiment, below: int | None = None) -> list[StoredRun]:
-        """The kept runs of an experiment, those with a number below `below`, in order."""
+    def runs(self, experiment: StoredExperiment, below: int | None = None, first: int = 0) -> list[StoredRun]:
+        """The kept runs of an experiment, those with a number from `first` to below `below`, in order."""
         with self._telling():
             rows = self._connection.execute(
-                f"SELECT batch, checksum, run, {_OUTCOME} FROM runs WHERE experiment = ? AND run < ? ORDER BY run",
-                (experiment.id, np.iinfo(np.int64).max if below is None else below),
+                f"SELECT batch, checksum, run, {_OUTCOME} FROM runs"
+                " WHERE experiment = ? AND run >= ? AND run < ? ORDER BY run",
+                (experiment.id, first, np.iinfo(np.int64).max if below is None else below),
             ).fetchall()
         found = []
         for batch, checksum, *row in rows:
@@ -286,6 +295,10 @@ class Store:
             run = Run(bool(success), generation, distance, controller, coefficients, evaluations)
             found.append(StoredRun(number, run, seconds, batch))
         return found
+
+
+def _is_plain(label: object) -> bool:
+    return isinstance(label, str) and label.isprintable() and bool(label)
 
 
 def _in_one_line(error: Exception) -> str:
@@ -323,14 +336,17 @@ def _execute_all(connection: sqlite3.Connection, statements: str) -> None:
 
 def _add_checksums(connection: sqlite3.Connection) -> None:
     """Bring the runs of a store of layout 1, which had no checksums, into the table of today."""
-    connection.create_function("checksum", -1, _checksum, deterministic=True)
     connection.execute("ALTER TABLE runs RENAME TO runs_without_checksums")
     _execute_all(connection, _RUNS)
-    connection.execute(
-        f"INSERT INTO runs (experiment, batch, run, {_OUTCOME}, checksum)"
-        f" SELECT experiment, batch, run, {_OUTCOME}, checksum(digest, run, {_OUTCOME})"
+    (size,) = connection.execute("SELECT count(*) FROM runs_without_checksums").fetchone()
+    rows = connection.execute(
+        f"SELECT digest, experiment, batch, run, {_OUTCOME}"
         " FROM runs_without_checksums JOIN experiments ON experiments.id = experiment"
-    )
+    ).fetchall()
+    if len(rows) != size:
+        raise ValueError("some of its runs are of no experiment")
+    for digest, experiment, batch, *row in rows:
+        connection.execute(_INSERT_RUN, (experiment, batch, *row, _checksum(digest, *row)))
     connection.execute("DROP TABLE runs_without_checksums")
 
 

@@ -9,7 +9,7 @@ import pandas as pd
 
 from safe import checks
 from safe.algorithms import Algorithm, Parameters
-from safe.evolution import RULES, evolve
+from safe.evolution import RULES, Run, evolve
 from safe.experiment import Experiment
 from safe.maze import Maze
 from safe.progress import bar
@@ -24,7 +24,7 @@ def merge(store: str | os.PathLike, other: str | os.PathLike) -> int:
     store : path
         The store that grows; made where there is none.
     other : path
-        The other store; it stays as it is.
+        The other store. Nothing is added to it; one of an earlier layout is brought to that of today.
 
     Returns
     -------
@@ -34,27 +34,29 @@ def merge(store: str | os.PathLike, other: str | os.PathLike) -> int:
     Raises
     ------
     ValueError
-        Where one of them is no store, or they have different outcomes of the same run. Nothing is merged then.
+        Where one of them is no store or damaged, or they have different outcomes of the same run. Nothing is merged
+        then.
     """
     with Store(other, must_exist=True) as source, Store(store) as target:
         news = []
         for theirs in source.experiments():
             ours = {kept.number: kept.run for known in target.experiments(theirs.digest) for kept in target.runs(known)}
-            runs = source.runs(theirs)
-            for number, run, _, _ in runs:
-                if ours.get(number, run) != run:
+            by_batch: dict[int, list[tuple[int, Run, float]]] = {}
+            for number, run, seconds, batch in source.runs(theirs):
+                if number not in ours:
+                    by_batch.setdefault(batch, []).append((number, run, seconds))
+                elif ours[number] != run:
                     raise ValueError(
-                        f"other must agree with the store; was {checks.shown(str(other))}, where run {number} of "
-                        f"{theirs.algorithm} on {theirs.maze} ends {run.distance} from the goal in generation "
-                        f"{run.generation}, and in {store} {ours[number].distance} in {ours[number].generation}, "
-                        "or with another controller: see what made either in their tables of batches"
+                        f"other must agree with the store; was {source}, where run {number} of {theirs.algorithm} on "
+                        f"{theirs.maze} {_ending(run)}, and in {target} it {_ending(ours[number])}: see what made "
+                        "either in their tables of batches"
                     )
-            news.append((theirs, [kept for kept in runs if kept.number not in ours]))
-        for theirs, runs in news:
+            news.append((theirs, [(source.origin_of(batch), runs) for batch, runs in by_batch.items()]))
+        for theirs, batches in news:
             experiment = target.experiment(theirs.content, theirs.digest, theirs.algorithm, theirs.maze)
-            for batch in {kept.batch for kept in runs}:
-                target.add(experiment, source.origin_of(batch), [kept[:3] for kept in runs if kept.batch == batch])
-    return sum(len(runs) for _, runs in news)
+            for origin, runs in batches:
+                target.add(experiment, origin, runs)
+    return sum(len(runs) for _, batches in news for _, runs in batches)
 
 
 def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, progress: bool = True) -> pd.DataFrame:
@@ -96,38 +98,46 @@ def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, 
     draw = np.random.default_rng(None if seed is None else checks.integer("seed", seed, 0))
     with Store(store, must_exist=True) as results:
         stored = [
-            (experiment, kept)
-            for experiment in results.experiments()
-            if experiment.content["rules"] == RULES
-            for kept in results.runs(experiment)
+            (found, kept.number)
+            for found in results.experiments()
+            if found.content.get("rules") == RULES
+            for kept in results.runs(found)
         ]
-    same = []
-    chosen = draw.choice(len(stored), min(sample, len(stored)), replace=False)
-    for which in bar("verifying", iterable=chosen, unit="run", **({} if progress else {"disable": True})):
-        found, kept = stored[which]
-        experiment = _as_experiment(found)
-        remade = evolve(
-            experiment.maze, experiment.algorithm, experiment.seed_sequence(kept.number), experiment.parameters
-        )
-        if remade != kept.run:
-            raise ValueError(
-                f"store must hold what its experiments make; was {checks.shown(str(store))}, where run {kept.number} "
-                f"of {found.algorithm} on {found.maze}, seed {experiment.seed}, ends {kept.run.distance} from the "
-                f"goal in generation {kept.run.generation}, and made again {remade.distance} in {remade.generation}, "
-                "or with another controller"
-            )
-        same.append((found.algorithm, found.maze, experiment.seed, kept.number, remade.success, remade.generation))
+        same = []
+        chosen = draw.choice(len(stored), min(sample, len(stored)), replace=False)
+        for found, number in bar("verifying", progress, iterable=[stored[i] for i in chosen], unit="run"):
+            experiment = _as_experiment(found, results)
+            seed_sequence = experiment.seed_sequence(number)
+            remade = evolve(experiment.maze, experiment.algorithm, seed_sequence, experiment.parameters)
+            for kept in results.runs(found, first=number, below=number + 1):
+                if remade != kept.run:
+                    raise ValueError(
+                        f"store must hold what its experiments make; was {results}, where run {number} of "
+                        f"{found.algorithm} on {found.maze}, seed {experiment.seed}, {_ending(kept.run)}, and made "
+                        f"again it {_ending(remade)}"
+                    )
+            same.append((found.algorithm, found.maze, experiment.seed, number, remade.success, remade.generation))
     return pd.DataFrame(same, columns=["algorithm", "maze", "seed", "run", "success", "generation"])
 
 
-def _as_experiment(stored: StoredExperiment) -> Experiment:
+def _ending(run: Run) -> str:
+    """How a run ends, in words, with what tells two controllers apart."""
+    return f"ends {run.distance} from the goal in generation {run.generation}, with p1 = {run.controller[0]}"
+
+
+def _as_experiment(stored: StoredExperiment, store: Store) -> Experiment:
     content = stored.content
-    experiment = Experiment(
-        Algorithm(stored.algorithm, **content["algorithm"]),
-        Maze.from_drawing(content["maze"], stored.maze),
-        seed=content["seed"],
-        parameters=Parameters(**content["parameters"]),
+    try:
+        experiment = Experiment(
+            Algorithm(stored.algorithm, **content["algorithm"]),
+            Maze.from_drawing(content["maze"], stored.maze),
+            seed=content["seed"],
+            parameters=Parameters(**content["parameters"]),
+        )
+        if experiment.digest == stored.digest:
+            return experiment
+    except (KeyError, TypeError, ValueError):
+        pass  # of a version that knows more
+    raise ValueError(
+        f"store must hold experiments that this version can make; was {store}, with {stored.algorithm} on {stored.maze}"
     )
-    if experiment.digest != stored.digest:
-        raise ValueError(f"store must hold experiments of this version; had {stored.algorithm} on {stored.maze}")
-    return experiment

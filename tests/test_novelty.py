@@ -86,44 +86,6 @@ def test_scores_and_archive_are_those_of_the_oracle(generations, capacity, k, me
         expected.entered = len(expected.members)
 
 
-def far_apart(rng):
-    """Mostly in one place, a few far away: neither is what a grid of even cells is made for."""
-    return np.concatenate([rng.normal(0, 1e-9, (300, 2)), rng.uniform(-1e6, 1e6, (60, 2))])
-
-
-@pytest.mark.parametrize("metric", DISTANCES)
-@pytest.mark.parametrize(
-    "draw",
-    [
-        lambda rng: rng.random((360, 2)),
-        lambda rng: rng.integers(0, 4, (360, 2)).astype(float),  # hundreds of doubles of each point
-        lambda rng: np.stack([rng.random(360), np.zeros(360)], axis=1),
-        lambda rng: np.ones((360, 2)),
-        lambda rng: rng.random((360, 5)),
-        far_apart,
-    ],
-    ids=["even", "doubles", "on a line", "in one place", "in five dimensions", "far apart"],
-)
-def test_scores_do_not_depend_on_how_points_are_spread(draw, metric):
-    rng = np.random.default_rng(1)
-    archive = NoveltyArchive(capacity=400, k=7, metric=metric)
-    for _ in range(3):
-        points = rng.permuted(draw(rng), axis=0)
-        others = np.concatenate([points, archive.points]) if len(archive) else points
-        measure = {"taxicab": lambda d: np.abs(d).sum(axis=1), "euclidean": lambda d: np.sqrt((d * d).sum(axis=1))}
-        first = np.sort(measure[metric](others - points[0]))[1:8].sum() / 7
-        before = oracle.Archive(400)
-        before.members = [
-            (s, i, p.tolist()) for i, (p, s) in enumerate(zip(archive.points, archive.scores, strict=True))
-        ]
-        before.entered = len(before.members)
-        scores = archive.score(points)
-        assert scores[0] == pytest.approx(first, rel=1e-12)
-        np.testing.assert_allclose(
-            scores, oracle.novelty(points.tolist(), before, 7, DISTANCES[metric]), rtol=1e-12, atol=1e-12
-        )
-
-
 def test_cells_far_apart_have_the_scores_of_points():
     rng = np.random.default_rng(1)
     cells, points, crowd = empty_archive(60, 2), NoveltyArchive(60, k=4), empty_crowd((900, 700))

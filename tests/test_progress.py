@@ -6,6 +6,10 @@ import subprocess
 import sys
 import termios
 
+import numba.core.event
+
+from safe.progress import while_compiling
+
 RUN = "import safe; safe.run(safe.Experiment('standard', 'maze1', runs=3, parameters=safe.Parameters(generations=2)))"
 
 
@@ -47,3 +51,9 @@ def test_compiling_is_shown_where_it_takes_place(tmp_path):
 def test_a_bar_can_be_switched_off():
     assert seen_in_a_terminal(RUN, TQDM_DISABLE="1") == ""
     assert seen_in_a_terminal(RUN.replace(")))", ")), progress=False)")) == ""
+
+
+def test_another_thread_that_began_to_compile_before():
+    with while_compiling():
+        event = numba.core.event.Event("numba:compile", numba.core.event.EventStatus.END)
+        numba.core.event.broadcast(event)
