@@ -4,24 +4,18 @@ import pytest
 
 from benchmarks.workloads import workload
 from safe import Parameters
+from safe.speed import PARTS
 
-PARTS = {
-    "standard": ["robot", "fitness", "breeding", "all"],
-    "novelty": ["robot", "novelty", "fitness", "breeding", "all"],
-    "safe": [
-        "robot",
-        "novelty",
-        "fitness",
-        "breeding",
-        "objective functions",
-        "breeding of objective functions",
-        "all",
-    ],
+OF_NOVELTY_SEARCH = [part for part in PARTS if "objective functions" not in part]
+OF = {
+    "standard": [part for part in OF_NOVELTY_SEARCH if part != "novelty"],
+    "novelty": OF_NOVELTY_SEARCH,
+    "safe": PARTS,
 }
 
 
 @pytest.mark.parametrize("maze", ["maze1", "maze2"])
-@pytest.mark.parametrize(("algorithm", "part"), [(algorithm, part) for algorithm in PARTS for part in PARTS[algorithm]])
+@pytest.mark.parametrize(("algorithm", "part"), [(algorithm, part) for algorithm in OF for part in OF[algorithm]])
 def test_part(measure, sized, algorithm, maze, part):
     parameters = Parameters(generations=sized(500, check=5))
     function, arguments, generations = workload(part, maze, algorithm, parameters)

@@ -15,6 +15,7 @@ def kernel(function: Callable) -> Callable:
     """Compile `function` with numba: no Python inside, GIL released, kept on disk, IEEE arithmetic.
 
     `fastmath` stays off: it lets a compiler reorder sums, and then a run would differ between machines.
+    Division is numpy's, which raises no error: where one might be raised, numba counts references in inner loops.
     With NUMBA_DISABLE_JIT=1 in the environment functions stay plain Python, for a debugger to step through.
     """
     if numba.config.DISABLE_JIT:
