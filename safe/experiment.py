@@ -18,7 +18,7 @@ from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from queue import SimpleQueue
+from queue import Empty, SimpleQueue
 from typing import NamedTuple
 
 import numpy as np
@@ -219,9 +219,9 @@ def _compute(
     back: SimpleQueue[Future] = SimpleQueue()
     runs, seconds, successes = 0, 0.0, results.successes(stored, experiment.runs)
 
-    def send() -> None:
+    def send(most: int) -> None:
         """Batches of one run until it is known how long a run takes."""
-        while waiting and len(in_flight) < (MOST_IN_FLIGHT if runs else FIRST_IN_FLIGHT):
+        while waiting and len(in_flight) < most:
             size = _batch_size(len(waiting), seconds / runs) if runs else 1
             future = pool.submit(_make, experiment, [waiting.popleft() for _ in range(size)], stop)
             in_flight.add(future)
@@ -235,9 +235,13 @@ def _compute(
         unit="run",
     )
     try:
-        send()
+        send(FIRST_IN_FLIGHT)
         while in_flight:
-            future = back.get()
+            try:
+                future = back.get(timeout=None if runs else BATCH_SECONDS)
+            except Empty:  # runs are long: each is a batch, and however many cores there are shall have one
+                send(MOST_IN_FLIGHT)
+                continue
             batch = _keep(future, results, stored)
             in_flight.discard(future)  # not before: what an interruption leaves is kept below
             if batch.failure is not None:
@@ -247,7 +251,7 @@ def _compute(
             successes += sum(outcome.success for _, outcome, _ in batch.runs)
             bar.set_postfix(successes=successes, refresh=False)
             bar.update(len(batch.runs))
-            send()
+            send(MOST_IN_FLIGHT)
     except BaseException as error:
         stop[0] = True
         for future in in_flight:

@@ -82,6 +82,24 @@ def test_short_runs_travel_together_and_long_ones_alone():
     assert module._batch_size(1, seconds=1e-4) == 1
 
 
+def test_many_cores_do_not_wait_for_the_first_long_run():
+    class Large(InThisThread):
+        """Gives nothing back until it has got all."""
+
+        def submit(self, *arguments):
+            done = super().submit(*arguments)
+            waiting.append((Future(), done.result()))
+            given = waiting[-1][0]
+            if self.runs == 60:
+                for future, result in waiting:
+                    future.set_result(result)
+            return given
+
+    waiting = []
+    assert len(results(replace(EXPERIMENT, runs=60), executor=Large())) == 60
+    assert len(waiting) == 60
+
+
 def test_what_computes_by_other_rules_is_refused(tmp_path):
     class Elsewhere(InThisThread):
         def submit(self, *arguments):
