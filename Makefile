@@ -9,7 +9,7 @@ BIN := .venv/bin
 INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
 BUILD := $(BIN)/jupyter-book build . --toc book/_toc.yml --quiet --warningiserror --keep-going --nitpick
 BOUNDS_CHECKED := NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.numba-boundscheck
-KERNEL_TESTS := tests/test_robot.py tests/test_novelty.py tests/test_operators.py tests/test_evolution.py
+KERNEL_TESTS := tests/test_robot.py tests/test_neighbours.py tests/test_novelty.py tests/test_operators.py tests/test_evolution.py
 
 .PHONY: help env execute book pdf test bench fuzz format picture constraints clean
 
