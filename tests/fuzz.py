@@ -33,6 +33,7 @@ import hypothesis.extra.numpy as hnp
 import numpy as np
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
+from hypothesis.errors import HypothesisWarning
 
 import safe
 from safe import Maze, notebook
@@ -83,7 +84,9 @@ def fuzz(name: str, cases: int) -> None:
         attempt(name, case)
 
     warm_up()
-    is_accepted_or_refused()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", HypothesisWarning)  # that a case is long to print, in place of what failed
+        is_accepted_or_refused()
 
 
 @cache
