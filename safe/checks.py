@@ -24,9 +24,19 @@ def shown(value: object) -> str:
     return text if len(text) <= 80 else text[:77] + "..."
 
 
+def reason(error: Exception) -> str:
+    """What another library says of an error, as our messages quote it: in one line, cut where it is long."""
+    return " ".join(str(error).split())[:100]
+
+
+def is_text(value: object) -> bool:
+    """Can a title, a page and a database show this: a text, not empty, without control characters?"""
+    return isinstance(value, str) and value != "" and value.isprintable()
+
+
 def text(name: str, value: object) -> str:
-    """`value`, which must be a text that a title, a page and a database can show: not empty, no control characters."""
-    if not isinstance(value, str) or not value or not value.isprintable():
+    """`value`, which must be a text (see `is_text`)."""
+    if not is_text(value):
         raise ValueError(f"{name} must be a text of printable characters; was {shown(value)}")
     return value
 

@@ -58,10 +58,9 @@ def executor_at(scheduler: str, patience: float = 10) -> Executor | None:
 
         return Client(checks.text("scheduler", scheduler), timeout=patience).get_executor()
     except (ImportError, OSError, ValueError) as error:
-        reason = " ".join(str(error).split())[:150]
         raise ValueError(
             "scheduler must be the address of a running Dask scheduler, or empty; "
-            f"was {checks.shown(scheduler)} ({reason})"
+            f"was {checks.shown(scheduler)} ({checks.reason(error)})"
         ) from None
 
 

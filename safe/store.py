@@ -123,7 +123,7 @@ class Store:
                 raise
             raise ValueError(
                 "store must be the path of a results store, or of a file to make; "
-                f"was {checks.shown(path)} ({_in_one_line(error)})"
+                f"was {checks.shown(path)} ({checks.reason(error)})"
             ) from None
 
     @staticmethod
@@ -190,7 +190,8 @@ class Store:
             yield
         except sqlite3.Error as error:
             raise ValueError(
-                f"store must be in order, free to be written, and have room to grow; was {self} ({_in_one_line(error)})"
+                "store must be in order, free to be written, and have room to grow; "
+                f"was {self} ({checks.reason(error)})"
             ) from None
 
     def _damaged(self, what: str) -> ValueError:
@@ -223,7 +224,7 @@ class Store:
         for number, its_digest, content, algorithm, maze in rows:
             if not isinstance(content, str) or hashlib.sha256(content.encode()).hexdigest() != its_digest:
                 raise self._damaged(f"experiment {number}")
-            labels = (label if _is_plain(label) else checks.shown(label) for label in (algorithm, maze))
+            labels = (label if checks.is_text(label) else checks.shown(label) for label in (algorithm, maze))
             found.append(StoredExperiment(number, its_digest, json.loads(content), *labels))
         return found
 
@@ -295,14 +296,6 @@ class Store:
             run = Run(bool(success), generation, distance, controller, coefficients, evaluations)
             found.append(StoredRun(number, run, seconds, batch))
         return found
-
-
-def _is_plain(label: object) -> bool:
-    return isinstance(label, str) and label.isprintable() and bool(label)
-
-
-def _in_one_line(error: Exception) -> str:
-    return " ".join(str(error).split())[:100]
 
 
 def _outcome(run: Run, seconds: float) -> tuple:

@@ -103,10 +103,12 @@ def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, 
             if found.content.get("rules") == RULES
             for kept in results.runs(found)
         ]
-        same = []
+        same, experiments = [], {}
         chosen = draw.choice(len(stored), min(sample, len(stored)), replace=False)
         for found, number in bar("verifying", progress, iterable=[stored[i] for i in chosen], unit="run"):
-            experiment = _as_experiment(found, results)
+            if found.id not in experiments:
+                experiments[found.id] = _as_experiment(found, results)
+            experiment = experiments[found.id]
             seed_sequence = experiment.seed_sequence(number)
             remade = evolve(experiment.maze, experiment.algorithm, seed_sequence, experiment.parameters)
             for kept in results.runs(found, first=number, below=number + 1):
