@@ -45,7 +45,7 @@ class _Module(NamedTuple):
     body: str  # without imports and exports
 
 
-def script(folder: Path = FOLDER, entries: tuple[str, ...] = ENTRIES) -> str:
+def script(entries: tuple[str, ...] = ENTRIES, folder: Path = FOLDER) -> str:
     """A JavaScript function `playground()`, which holds all modules and returns what the entries export.
 
     It also returns `makeWorker()`, which gives a new worker that holds the same and has called `serve(self)`.
