@@ -1,0 +1,332 @@
+"""The engine of the playground gives what the package gives, bit for bit. Skipped without Node, without Chromium."""
+
+import functools
+import json
+from pathlib import Path
+
+import hypothesis.extra.numpy as hnp
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+import safe
+from safe import Algorithm, Experiment, Maze, NoveltyArchive, Parameters, load_maze
+from safe.evolution import Generation
+from safe.maze import MAZE_FOLDER, parse_maze
+from safe.novelty import METRICS
+from tests import fuzz, golden, record
+from tests.browser import needs_browser
+from tests.conftest import controllers, mazes
+from tests.playground.twin import IN_PAGE, TWINS, in_browser, run_of
+from tests.test_maze import BAD_DRAWINGS, BAD_LISTS
+from tests.test_robot import reference_endpoints
+
+DATA = Path(__file__).parents[1] / "data"
+RUNS = 200
+
+
+@pytest.fixture(scope="module", params=TWINS.values())
+def twin(request):
+    with request.param() as twin:
+        yield twin
+
+
+# The maze and the robot
+
+
+def described(maze):
+    """A maze as the engine tells it."""
+    return {
+        "name": maze.name,
+        "height": maze.shape[0],
+        "width": maze.shape[1],
+        "walls": maze.walls.astype(int).ravel().tolist(),
+        "start": list(maze.start),
+        "goal": list(maze.goal),
+        "sensors": maze.sensors.ravel().tolist(),
+    }
+
+
+def parsed(text):
+    """What comes of a text, as an answer of the twin."""
+    try:
+        return {"result": described(parse_maze(text))}
+    except ValueError as error:
+        return {"error": str(error)}
+
+
+def assert_parsed_alike(twin, texts):
+    calls = [{"function": "parseMaze", "maze": text} for text in texts]
+    for text, answer in zip(texts, twin.answers(calls), strict=True):
+        answer.pop("stack", None)
+        assert answer == parsed(text), repr(text)
+
+
+def test_the_papers_mazes_from_their_files(twin):
+    texts = [path.read_text() for path in MAZE_FOLDER.glob("*.maze")]
+    assert len(texts) == 2
+    assert_parsed_alike(twin, texts)
+
+
+def test_a_maze_has_its_name(twin):
+    (maze,) = twin.results([{"function": "parseMaze", "maze": "S.G", "name": "mine"}])
+    assert maze["name"] == "mine"
+
+
+def test_a_text_that_is_no_maze_is_refused_in_the_same_words(twin):
+    assert_parsed_alike(twin, [text for text, _ in BAD_DRAWINGS + BAD_LISTS])
+
+
+@given(texts=st.lists(fuzz.MAZE_FILES.map(lambda data: data.decode("utf-8", "surrogateescape")), max_size=20))
+def test_whatever_the_text_it_is_the_same_maze_or_the_same_words(twin, texts):
+    assert_parsed_alike(twin, texts)
+
+
+@given(maze=mazes(), batch=controllers(count=5), steps=st.integers(0, 400))
+def test_mazes_paths_and_endpoints(twin, maze, batch, steps):
+    at = {"maze": maze.drawing(), "steps": steps}
+    paths = [{"function": "path", "controller": controller, **at} for controller in batch.tolist()]
+    endpoints = {"function": "endpoints", "controllers": batch.tolist(), **at}
+    *walked, ended = twin.results([*paths, endpoints])
+    assert walked == [safe.path(maze, controller, steps).tolist() for controller in batch]
+    assert ended == safe.endpoints(maze, batch, steps).tolist()
+    assert_parsed_alike(twin, [maze.drawing()])
+
+
+def test_every_reference_end_point(twin):
+    rows = list(reference_endpoints())
+    drawings = {name: load_maze(name).drawing() for name in ("maze1", "maze2")}
+    at = [{"maze": drawings[maze], "steps": steps} for maze, steps, _, _ in rows]
+    found = twin.results(
+        {"function": "endpoints", "controllers": [row[2]], **where} for row, where in zip(rows, at, strict=True)
+    )
+    paths = twin.results(
+        {"function": "path", "controller": row[2], **where} for row, where in zip(rows, at, strict=True)
+    )
+    assert len(rows) == 320
+    for (maze, steps, controller, end), (endpoint,), path in zip(rows, found, paths, strict=True):
+        assert tuple(endpoint) == end
+        assert path == safe.path(maze, controller, steps).tolist()
+
+
+# Novelty
+
+
+def archived(generations, **arguments):
+    """What the package's archive tells after each generation, as the engine's does."""
+    archive = NoveltyArchive(**arguments)
+    told = []
+    for points in generations:
+        novelty = archive.score(np.reshape(points, (len(points), -1 if len(points) else 2))).tolist()
+        told.append({"novelty": novelty, "points": archive.points.tolist(), "scores": archive.scores.tolist()})
+        told[-1]["length"] = len(archive)
+    return told
+
+
+@pytest.mark.parametrize(
+    ("points", "scores", "metric"),
+    [("endpoints", "endpoint_novelty", "taxicab"), ("objectives", "objective_novelty", "euclidean")],
+)
+def test_every_reference_score(twin, points, scores, metric):
+    with np.load(DATA / "novelty.npz") as reference:
+        generations, expected = reference[points].tolist(), reference[scores]
+    (told,) = twin.results([{"function": "NoveltyArchive", "metric": metric, "generations": generations}])
+    np.testing.assert_allclose([after["novelty"] for after in told], expected, rtol=0, atol=1e-12)
+    assert told == archived(generations, metric=metric)
+
+
+@given(
+    generations=st.lists(
+        hnp.arrays(
+            np.float64,
+            st.tuples(st.integers(1, 9), st.just(2)),
+            elements=st.integers(0, 6).map(float) | st.floats(-6, 6),
+        ).map(np.ndarray.tolist),
+        max_size=5,
+    ),
+    capacity=st.integers(0, 12),
+    k=st.integers(1, 20),
+    metric=st.sampled_from(METRICS),
+)
+def test_scores_and_archives_of_any_points(twin, generations, capacity, k, metric):
+    settings = {"capacity": capacity, "k": k, "metric": metric}
+    (told,) = twin.results([{"function": "NoveltyArchive", "generations": generations, **settings}])
+    assert told == archived(generations, **settings)
+
+
+# Runs
+
+
+def told(run):
+    """A run or a generation of the package as the engine tells it."""
+    fields = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in vars(run).items()}
+    if isinstance(run, Generation):
+        fields["objectiveFitness"] = fields.pop("objective_fitness")
+        for name, key in (("archive", "archive"), ("objective_archive", "objectiveArchive")):
+            points, scores = fields.pop(name)
+            fields[key] = {"points": points.tolist(), "scores": scores.tolist()}
+    return json.loads(json.dumps(fields))
+
+
+def drawn_maze(rng):
+    """A maze with walls at random."""
+    while True:
+        height, width = rng.integers(2, 40, 2)
+        cells = [tuple(map(int, rng.integers((height, width)))) for _ in range(2)]
+        try:
+            return Maze(rng.random((height, width)) < 0.3, *cells)
+        except ValueError:  # an end in a wall, no way between them
+            continue
+
+
+def drawn_algorithm(rng):
+    """One by its name, or any that one might write."""
+    given = rng.uniform(-0.2, 1, (2 * int(rng.integers(2, 9)), 2)).tolist()
+    return [
+        *safe.ALGORITHMS,
+        Algorithm("a quarter", [(0.25, 0.75)]),
+        Algorithm("several", given[: rng.integers(1, len(given))]),
+        Algorithm("drawn", None),
+        Algorithm("given", given, "genotypic novelty"),
+    ][rng.integers(9)]
+
+
+def drawn_parameters(rng):
+    return Parameters(
+        population=2 * int(rng.integers(2, 25)),
+        objectives=2 * int(rng.integers(2, 25)),
+        generations=int(rng.integers(1, 40)),
+        tournament=int(rng.integers(1, 8)),
+        elites=int(rng.choice([0, 2, 2])),
+        crossover=rng.choice([0.0, 0.8, 1.0]),
+        mutation=rng.choice([0.0, 0.4, 1.0]),
+        k=int(rng.choice([1, 4, 15, 200])),
+        archive=int(rng.choice([0, 1, 30, 200, 1000])),
+        steps=int(rng.choice([1, 50, 300, 1001])),
+        success_distance=int(rng.choice([0, 0, 2, 5])),
+    )
+
+
+def drawn_seed(rng):
+    """A seed in one of its forms."""
+    words = [int(word) for word in rng.integers(2**63, size=5)]
+    return [
+        words[0] % 1000,
+        words[0],
+        (words[0] << 200) + words[1],
+        words,
+        np.random.SeedSequence(words[0], spawn_key=words[3:4]).spawn(2)[1],
+        Experiment("safe", "maze1", seed=words[0]).seed_sequence(17),
+    ][rng.integers(6)]
+
+
+@functools.cache
+def runs_of_every_kind():
+    """The arguments of 200 runs."""
+    rng = np.random.default_rng(2019)
+    papers = [load_maze("maze1"), load_maze("maze2")]
+    runs = [
+        (
+            drawn_maze(rng) if rng.random() < 0.5 else papers[rng.integers(2)],
+            drawn_algorithm(rng),
+            drawn_seed(rng),
+            drawn_parameters(rng),
+        )
+        for _ in range(RUNS - 5)
+    ]
+    large, far_apart = np.zeros((300, 260), dtype=bool), Parameters(40, 40, generations=8, steps=5000, archive=50)
+    smallest = Parameters(2, 2, elites=0, generations=30)
+    return [
+        *runs,
+        (Maze(large, (150, 130), (0, 0)), "novelty", 0, far_apart),
+        (Maze(large, (150, 130), (0, 0)), "safe", 2**64, far_apart),
+        (papers[0], "safe", 0, smallest),
+        (papers[1], "novelty", [0, 0], smallest),
+        (Maze.from_drawing("SG"), "fixed", [2**40], Parameters(generations=3)),
+    ]
+
+
+def test_runs_of_every_kind(twin):
+    runs = runs_of_every_kind()
+    found = twin.results(run_of("evolve", *run) for run in runs)
+    for run, got in zip(runs, found, strict=True):
+        assert got == told(safe.evolve(*run)), run
+    assert {got["success"] for got in found} == {False, True}
+
+
+def test_every_generation_of_some_of_them(twin):
+    for run in runs_of_every_kind()[::4]:
+        (found,) = twin.results([run_of("generations", *run)])
+        assert found == [told(generation) for generation in safe.generations(*run)], run
+
+
+@pytest.mark.parametrize("maze", ["maze1", "maze2"])
+@pytest.mark.parametrize("algorithm", safe.ALGORITHMS)
+def test_every_generation_until_the_archives_are_full_and_beyond(twin, algorithm, maze):
+    run = load_maze(maze), algorithm, 7, Parameters(generations=9, success_distance=0)
+    (found,) = twin.results([run_of("generations", *run)])
+    assert found == [told(generation) for generation in safe.generations(*run)]
+
+
+def test_golden_runs(twin):
+    golden_runs = json.loads(golden.FILE.read_text())["runs"]
+    found = twin.results(
+        run_of("evolve", load_maze(run["maze"]), run["algorithm"], run["seed"], Parameters()) for run in golden_runs
+    )
+    assert found == [run["outcome"] for run in golden_runs]
+
+
+def test_runs_behind_the_ledger(twin):
+    """The soonest to succeed of each evolutionary algorithm's 500 in either maze, as they were recorded."""
+    recorded = record.recorded_runs()
+    calls, expected = [], []
+    for experiment in record.experiments():
+        runs = recorded[record.key(experiment)]
+        if experiment.algorithm.is_random_search:
+            continue
+        for number, row in runs[runs.success].sort_values("generation", kind="stable").head(3).iterrows():
+            run = experiment.maze, experiment.algorithm, experiment.seed_sequence(number), Parameters()
+            calls.append(run_of("evolve", *run))
+            expected.append((row.generation, row.distance, row.filter(regex=r"^p\d+$").tolist()))
+    assert len(calls) > 12
+    for got, (generation, distance, controller) in zip(twin.results(calls), expected, strict=True):
+        assert (got["generation"], got["distance"]) == (generation, distance)
+        assert got["controller"] == controller or np.isnan(controller).all()
+
+
+def test_the_default_parameters(twin):
+    call = run_of("evolve", load_maze("maze1"), "random", 5, Parameters())
+    del call["parameters"]
+    (found,) = twin.results([call])
+    assert found == told(safe.evolve("maze1", "random", 5))
+
+
+seeds = st.integers(0, 2**300) | st.sampled_from([0, 1, 2**32 - 1, 2**32, 2**53, 2**64])
+
+
+@settings(max_examples=30)
+@given(
+    seed=seeds
+    | st.lists(seeds, min_size=1, max_size=6)
+    | st.builds(
+        lambda entropy, key: np.random.SeedSequence(entropy, spawn_key=key),
+        seeds | st.lists(seeds, min_size=1, max_size=6),
+        st.lists(st.integers(0, 2**40), max_size=3),
+    )
+)
+@example(np.random.SeedSequence([2**64, 0], spawn_key=(0,)))
+def test_random_search_draws_the_numbers_of_numpy(twin, seed):
+    parameters = Parameters(20, 20, generations=3, steps=1)
+    (found,) = twin.results([run_of("generations", Maze.from_drawing("S.G"), "random", seed, parameters)])
+    sequence = seed if isinstance(seed, np.random.SeedSequence) else np.random.SeedSequence(seed)
+    drawn = -1 + 2 * np.random.Generator(np.random.SFC64(sequence)).random((3, 20, 16))
+    assert [generation["genomes"] for generation in found] == drawn.tolist()
+
+
+@needs_browser
+def test_in_the_page_itself_as_in_a_worker():
+    with in_browser(IN_PAGE) as page:
+        runs = runs_of_every_kind()[:20]
+        found = page.results(run_of("evolve", *run) for run in runs)
+    assert found == [told(safe.evolve(*run)) for run in runs]
