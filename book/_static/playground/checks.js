@@ -1,0 +1,80 @@
+// Checks of what users pass in, the same as those of the package. Every failed check is an InputError that names the
+// argument, what it must be, and what it was.
+
+export const MOST = 1000000; // of anything that is counted or stored
+export const LARGEST = 1e100; // of any number in an array: squares of such, and sums of those, are finite
+
+/** What a user gave is wrong; the message says what, in one line. */
+export class InputError extends Error {}
+
+/** The value as an error message shows it: in one line, cut where it is long. */
+export function shown(value) {
+  let text;
+  if (typeof value === "string") {
+    const quote = value.includes("'") && !value.includes('"') ? '"' : "'";
+    const escaped = value
+      .replace(/\\/g, "\\\\")
+      .replace(/\n/g, "\\n")
+      .replace(/\r/g, "\\r")
+      .replace(/\t/g, "\\t")
+      .replace(/[\x00-\x1f\x7f-\xa0]/g, (c) => "\\x" + c.charCodeAt(0).toString(16).padStart(2, "0"))
+      .replaceAll(quote, "\\" + quote);
+    text = quote + escaped + quote;
+  } else if (value === undefined || value === null) text = "None";
+  else if (Array.isArray(value)) text = `[${value.map(shown).join(", ")}]`;
+  else if (typeof value === "object") text = `a value of type ${value.constructor?.name ?? "Object"}`;
+  else text = String(value);
+  const characters = [...text];
+  return characters.length <= 80 ? text : characters.slice(0, 77).join("") + "...";
+}
+
+/** `value`, which must be an integer in low..high, both included. */
+export function checkedInteger(name, value, low, high = Infinity) {
+  if (!Number.isInteger(value) || value < low || value > high) {
+    const allowed = high === Infinity ? `of at least ${low}` : `from ${low} to ${high}`;
+    throw new InputError(`${name} must be an integer ${allowed}; was ${shown(value)}`);
+  }
+  return value;
+}
+
+/** `value`, which must be a number in [0, 1]. */
+export function checkedProbability(name, value) {
+  if (typeof value !== "number" || !(value >= 0 && value <= 1)) {
+    throw new InputError(`${name} must be a number from 0 to 1; was ${shown(value)}`);
+  }
+  return value;
+}
+
+/** `value`, which must be one of the strings in `allowed`. */
+export function checkedChoice(name, value, allowed) {
+  if (typeof value !== "string" || !allowed.includes(value)) {
+    throw new InputError(`${name} must be one of ${allowed.map(shown).join(", ")}; was ${shown(value)}`);
+  }
+  return value;
+}
+
+/** Rows of numbers as one Float64Array, row after row; each row must have `columns` finite numbers in [low, high]. */
+export function checkedRows(name, rows, columns, low = -LARGEST, high = LARGEST) {
+  const isTable = Array.isArray(rows) && rows.every((row) => Array.isArray(row) || ArrayBuffer.isView(row));
+  if (!isTable || rows.some((row) => [...row].some((number) => typeof number !== "number"))) {
+    throw new InputError(`${name} must be an array of numbers; was ${shown(rows)}`);
+  }
+  const flat = new Float64Array(rows.length * columns);
+  rows.forEach((row, i) => {
+    if (row.length !== columns) {
+      const shape = rows.every((other) => other.length === row.length)
+        ? `(${rows.length}, ${row.length})`
+        : "rows of different lengths";
+      throw new InputError(`${name} must have the shape (any, ${columns}); was of shape ${shape}`);
+    }
+    row.forEach((number, column) => {
+      if (!(Number.isFinite(number) && number >= low && number <= high)) {
+        throw new InputError(
+          `${name} must be finite and in [${low}, ${high}]; was ${number} at index (${i}, ${column})`,
+        );
+      }
+      flat[i * columns + column] = number;
+    });
+  });
+  return flat;
+}
