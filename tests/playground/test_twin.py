@@ -4,22 +4,21 @@ import functools
 import json
 from pathlib import Path
 
-import hypothesis.extra.numpy as hnp
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import safe
-from safe import Algorithm, Experiment, Maze, NoveltyArchive, Parameters, load_maze
+from safe import Algorithm, Experiment, Maze, NoveltyArchive, Parameters, checks, load_maze
 from safe.evolution import Generation
-from safe.maze import MAZE_FOLDER, parse_maze
+from safe.maze import MAZE_FOLDER, parse_maze, ways_to_goal
 from safe.novelty import METRICS
 from tests import fuzz, golden, record
-from tests.browser import needs_browser
 from tests.conftest import controllers, mazes
-from tests.playground.twin import IN_PAGE, TWINS, in_browser, run_of
+from tests.playground.twin import TWINS, run_of
 from tests.test_maze import BAD_DRAWINGS, BAD_LISTS
+from tests.test_novelty import generations_of_points
 from tests.test_robot import reference_endpoints
 
 DATA = Path(__file__).parents[1] / "data"
@@ -83,6 +82,15 @@ def test_whatever_the_text_it_is_the_same_maze_or_the_same_words(twin, texts):
     assert_parsed_alike(twin, texts)
 
 
+# characters that every edition of Unicode knows, which are as good as any
+@given(
+    texts=st.lists(st.text(st.characters(codec="latin-1") | st.sampled_from("٣\u2028\u3000\ud800\ue000😀\U000e0001")))
+)
+def test_a_text_is_shown_as_by_python(twin, texts):
+    calls = [{"function": "shown", "value": text} for text in texts]
+    assert twin.results(calls) == [checks.shown(text) for text in texts]
+
+
 @given(maze=mazes(), batch=controllers(count=5), steps=st.integers(0, 400))
 def test_mazes_paths_and_endpoints(twin, maze, batch, steps):
     at = {"maze": maze.drawing(), "steps": steps}
@@ -94,20 +102,27 @@ def test_mazes_paths_and_endpoints(twin, maze, batch, steps):
     assert_parsed_alike(twin, [maze.drawing()])
 
 
+@given(maze=mazes())
+def test_a_maze_is_written_as_a_drawing_and_as_a_list(twin, maze):
+    (written,) = twin.results([{"function": "writtenMaze", "maze": maze.drawing()}])
+    assert written["drawing"] == maze.drawing()
+    assert parse_maze(written["list"]) == maze
+    assert written["list"].startswith("size ")
+    assert written["ways"] == ways_to_goal(maze).ravel().tolist()
+
+
 def test_every_reference_end_point(twin):
     rows = list(reference_endpoints())
-    drawings = {name: load_maze(name).drawing() for name in ("maze1", "maze2")}
-    at = [{"maze": drawings[maze], "steps": steps} for maze, steps, _, _ in rows]
-    found = twin.results(
-        {"function": "endpoints", "controllers": [row[2]], **where} for row, where in zip(rows, at, strict=True)
-    )
-    paths = twin.results(
-        {"function": "path", "controller": row[2], **where} for row, where in zip(rows, at, strict=True)
-    )
     assert len(rows) == 320
-    for (maze, steps, controller, end), (endpoint,), path in zip(rows, found, paths, strict=True):
-        assert tuple(endpoint) == end
-        assert path == safe.path(maze, controller, steps).tolist()
+    calls, expected = [], []
+    for maze, steps in sorted({row[:2] for row in rows}):
+        walks = [row[2:] for row in rows if row[:2] == (maze, steps)]
+        at = {"maze": load_maze(maze).drawing(), "steps": steps}
+        calls.append({"function": "endpoints", "controllers": [controller for controller, _ in walks], **at})
+        expected.append([list(end) for _, end in walks])
+        calls.append({"function": "path", "controller": walks[0][0], **at})
+        expected.append(safe.path(maze, walks[0][0], steps).tolist())
+    assert twin.results(calls) == expected
 
 
 # Novelty
@@ -116,12 +131,10 @@ def test_every_reference_end_point(twin):
 def archived(generations, **arguments):
     """What the package's archive tells after each generation, as the engine's does."""
     archive = NoveltyArchive(**arguments)
-    told = []
     for points in generations:
-        novelty = archive.score(np.reshape(points, (len(points), -1 if len(points) else 2))).tolist()
-        told.append({"novelty": novelty, "points": archive.points.tolist(), "scores": archive.scores.tolist()})
-        told[-1]["length"] = len(archive)
-    return told
+        novelty = archive.score(points).tolist()
+        listed = {"points": archive.points.tolist(), "scores": archive.scores.tolist()}
+        yield {"novelty": novelty, **listed, "length": len(archive)}
 
 
 @pytest.mark.parametrize(
@@ -133,17 +146,12 @@ def test_every_reference_score(twin, points, scores, metric):
         generations, expected = reference[points].tolist(), reference[scores]
     (told,) = twin.results([{"function": "NoveltyArchive", "metric": metric, "generations": generations}])
     np.testing.assert_allclose([after["novelty"] for after in told], expected, rtol=0, atol=1e-12)
-    assert told == archived(generations, metric=metric)
+    assert told == list(archived(generations, metric=metric))
 
 
 @given(
-    generations=st.lists(
-        hnp.arrays(
-            np.float64,
-            st.tuples(st.integers(1, 9), st.just(2)),
-            elements=st.integers(0, 6).map(float) | st.floats(-6, 6),
-        ).map(np.ndarray.tolist),
-        max_size=5,
+    generations=generations_of_points().map(
+        lambda generations: [points.tolist() for points in generations if len(points)]
     ),
     capacity=st.integers(0, 12),
     k=st.integers(1, 20),
@@ -152,7 +160,7 @@ def test_every_reference_score(twin, points, scores, metric):
 def test_scores_and_archives_of_any_points(twin, generations, capacity, k, metric):
     settings = {"capacity": capacity, "k": k, "metric": metric}
     (told,) = twin.results([{"function": "NoveltyArchive", "generations": generations, **settings}])
-    assert told == archived(generations, **settings)
+    assert told == list(archived(generations, **settings))
 
 
 # Runs
@@ -269,6 +277,75 @@ def test_every_generation_until_the_archives_are_full_and_beyond(twin, algorithm
     assert found == [told(generation) for generation in safe.generations(*run)]
 
 
+@pytest.mark.parametrize("archive", [0, 300, 1000])
+def test_neighbours_are_those_that_make_the_novelty(twin, archive):
+    run = load_maze("maze2"), "novelty", 3, Parameters(generations=4, archive=archive)
+    (neighbours,) = twin.results([run_of("neighbours", *run)])
+    *_, before, last = safe.generations(*run)
+    archived = [*before.archive[0].tolist(), *last.endpoints.tolist()]
+    for found, point, novelty in zip(neighbours, last.endpoints, last.novelty, strict=True):
+        distances = [neighbour["distance"] for neighbour in found]
+        assert distances == sorted(distances)
+        assert len(distances) == 15
+        assert sum(distances) / 15 == novelty
+        for neighbour in found:
+            assert np.abs(point - neighbour["point"]).sum() == neighbour["distance"]
+            assert neighbour["point"] in (last.endpoints.tolist() if neighbour["from"] == "population" else archived)
+    assert any(neighbour["from"] == "archive" for found in neighbours for neighbour in found) == (archive > 0)
+
+
+BAD_ARGUMENTS = [
+    *({"algorithm": name} for name in ("saef", "", "constructor", None)),
+    {"algorithm": ("mine", None, "by taste")},
+    {"algorithm": ("mine", [(1, 0, 0)])},
+    {"algorithm": ("mine", [(1, 1e308)])},
+    {"algorithm": ("mine", [(1, 0)] * 3, "genotypic novelty")},
+    {"algorithm": ("mine", [], "genotypic novelty")},
+    {"algorithm": ("mine", [(1, 0)] * 2, "genotypic novelty")},
+    *({"seed": seed} for seed in (-1, 0.5, None, [], [1, -2])),
+    *({"parameters": {"population": value}} for value in (0, 51, 2, 1.5, "1", None, 10**9)),
+    *({"parameters": {"objectives": value}} for value in (-2, 3, 2)),
+    *({"parameters": {"elites": value}} for value in (-1, 1, 200)),
+    *({"parameters": {"crossover": value}} for value in (-0.5, 1.01, None)),
+    *(
+        {"parameters": {name: -1}}
+        for name in ("generations", "tournament", "k", "archive", "steps", "success_distance")
+    ),
+    *({"parameters": {name: 0}} for name in ("generations", "tournament", "k", "steps")),
+    {"parameters": {"mutation": 2, "k": 0}},
+]
+
+
+@pytest.mark.parametrize("function", ["evolve", "generations"])
+def test_bad_arguments_are_refused_in_the_same_words(twin, function):
+    calls = []
+    for bad in BAD_ARGUMENTS:
+        call = {"function": function, "maze": "S.G", "algorithm": "safe", "seed": 0, "parameters": {}, **bad}
+        if isinstance(call["algorithm"], tuple):
+            call["algorithm"] = dict(zip(("name", "objectives", "rating"), call["algorithm"], strict=False))
+        calls.append(call)
+    for call, answer in zip(calls, twin.answers(calls), strict=True):
+        algorithm = call["algorithm"]
+        with pytest.raises(ValueError, match=" must ") as refused:
+            safe.evolve(
+                Maze.from_drawing(call["maze"]),
+                Algorithm(**algorithm) if isinstance(algorithm, dict) else algorithm,
+                call["seed"],
+                Parameters(**call["parameters"]),
+            )
+        assert answer.get("error") == str(refused.value), call
+
+
+@pytest.mark.parametrize(
+    "arguments", [{"k": 0}, {"k": 1.5}, {"capacity": -1}, {"capacity": 10**7}, {"metric": "cosine"}, {"metric": None}]
+)
+def test_bad_archives_are_refused_in_the_same_words(twin, arguments):
+    (answer,) = twin.answers([{"function": "NoveltyArchive", "generations": [], **arguments}])
+    with pytest.raises(ValueError, match="must be") as refused:
+        NoveltyArchive(**arguments)
+    assert answer.get("error") == str(refused.value)
+
+
 def test_golden_runs(twin):
     golden_runs = json.loads(golden.FILE.read_text())["runs"]
     found = twin.results(
@@ -322,11 +399,3 @@ def test_random_search_draws_the_numbers_of_numpy(twin, seed):
     sequence = seed if isinstance(seed, np.random.SeedSequence) else np.random.SeedSequence(seed)
     drawn = -1 + 2 * np.random.Generator(np.random.SFC64(sequence)).random((3, 20, 16))
     assert [generation["genomes"] for generation in found] == drawn.tolist()
-
-
-@needs_browser
-def test_in_the_page_itself_as_in_a_worker():
-    with in_browser(IN_PAGE) as page:
-        runs = runs_of_every_kind()[:20]
-        found = page.results(run_of("evolve", *run) for run in runs)
-    assert found == [told(safe.evolve(*run)) for run in runs]

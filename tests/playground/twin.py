@@ -93,7 +93,7 @@ def algorithm_of(algorithm: Algorithm | str) -> dict | str:
 
 def seed_of(seed: Seed) -> object:
     if isinstance(seed, np.random.SeedSequence):
-        return {"entropy": seed_of(seed.entropy), "spawnKey": list(seed.spawn_key)}
+        return {"entropy": seed_of(seed.entropy), "spawnKey": seed_of(list(seed.spawn_key))}
     if isinstance(seed, Sequence):
         return [seed_of(word) for word in seed]
     return seed if seed < 2**53 else hex(seed)
