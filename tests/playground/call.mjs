@@ -7,6 +7,7 @@ import { Evolution } from "../../book/_static/playground/evolution.js";
 import { drawingOf, listOf, waysToGoal } from "../../book/_static/playground/maze.js";
 
 const FUNCTIONS = {
+  host: () => globalThis.process?.release.name.concat(" ", process.version) ?? navigator.userAgent.match(/\S*Chrom\S*/)[0],
   shown: ({ value }) => shown(value),
   parseMaze: ({ maze, name }) => parseMaze(maze, name),
   writtenMaze: ({ maze }) => {

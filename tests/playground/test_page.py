@@ -2,8 +2,8 @@
 
 import safe
 from tests.browser import needs_browser
-from tests.playground.test_twin import runs_of_every_kind, told
-from tests.playground.twin import IN_PAGE, in_browser, run_of
+from tests.playground.test_twin import runs_of_every_kind
+from tests.playground.twin import IN_PAGE, in_browser, run_of, told
 
 
 @needs_browser

@@ -11,12 +11,11 @@ from hypothesis import strategies as st
 
 import safe
 from safe import Algorithm, Experiment, Maze, NoveltyArchive, Parameters, checks, load_maze
-from safe.evolution import Generation
 from safe.maze import MAZE_FOLDER, parse_maze, ways_to_goal
 from safe.novelty import METRICS
 from tests import fuzz, golden, record
 from tests.conftest import controllers, mazes
-from tests.playground.twin import TWINS, run_of
+from tests.playground.twin import TWINS, run_of, told
 from tests.test_maze import BAD_DRAWINGS, BAD_LISTS
 from tests.test_novelty import generations_of_points
 from tests.test_robot import reference_endpoints
@@ -25,7 +24,7 @@ DATA = Path(__file__).parents[1] / "data"
 RUNS = 200
 
 
-@pytest.fixture(scope="module", params=TWINS.values())
+@pytest.fixture(scope="module", params=TWINS)
 def twin(request):
     with request.param() as twin:
         yield twin
@@ -164,17 +163,6 @@ def test_scores_and_archives_of_any_points(twin, generations, capacity, k, metri
 
 
 # Runs
-
-
-def told(run):
-    """A run or a generation of the package as the engine tells it."""
-    fields = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in vars(run).items()}
-    if isinstance(run, Generation):
-        fields["objectiveFitness"] = fields.pop("objective_fitness")
-        for name, key in (("archive", "archive"), ("objective_archive", "objectiveArchive")):
-            points, scores = fields.pop(name)
-            fields[key] = {"points": points.tolist(), "scores": scores.tolist()}
-    return json.loads(json.dumps(fields))
 
 
 def drawn_maze(rng):

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from safe import Algorithm, Maze, Parameters
-from safe.evolution import Seed
+from safe.evolution import Generation, Run, Seed
 from tests.browser import chromium, needs_browser, serving
 
 ROOT = Path(__file__).parents[2]
@@ -76,13 +76,13 @@ def in_browser(script: str = IN_WORKER):
         yield Twin(lambda text: page.evaluate(script, text))
 
 
-TWINS = {
-    "Node": pytest.param(in_node, marks=needs_node, id="Node"),
-    "Chromium": pytest.param(in_browser, marks=needs_browser, id="Chromium"),
-}
+TWINS = (
+    pytest.param(in_node, marks=needs_node, id="Node"),
+    pytest.param(in_browser, marks=needs_browser, id="Chromium"),
+)
 
 
-# What the package is given, as the engine is given it
+# What the package is given and what it gives, as the engine has it
 
 
 def algorithm_of(algorithm: Algorithm | str) -> dict | str:
@@ -108,3 +108,14 @@ def run_of(function: str, maze: Maze, algorithm: Algorithm | str, seed: Seed, pa
         "seed": seed_of(seed),
         "parameters": vars(parameters),
     }
+
+
+def told(run: Run) -> dict:
+    """A run or a generation of the package as the engine tells it."""
+    fields = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in vars(run).items()}
+    if isinstance(run, Generation):
+        fields["objectiveFitness"] = fields.pop("objective_fitness")
+        for name, key in (("archive", "archive"), ("objective_archive", "objectiveArchive")):
+            points, scores = fields.pop(name)
+            fields[key] = {"points": points.tolist(), "scores": scores.tolist()}
+    return json.loads(json.dumps(fields))
