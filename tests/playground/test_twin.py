@@ -197,7 +197,7 @@ def drawn_parameters(rng):
         elites=int(rng.choice([0, 2, 2])),
         crossover=rng.choice([0.0, 0.8, 1.0]),
         mutation=rng.choice([0.0, 0.4, 1.0]),
-        k=int(rng.choice([1, 4, 15, 200])),
+        k=int(rng.choice([1, 4, 15, 200, 1_000_000])),
         archive=int(rng.choice([0, 1, 30, 200, 1000])),
         steps=int(rng.choice([1, 50, 300, 1001])),
         success_distance=int(rng.choice([0, 0, 2, 5])),
