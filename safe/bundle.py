@@ -20,7 +20,7 @@ _FROM = re.compile(r'^(import|export)\s*\{([^{}]*)\}\s*from\s*"\./([^"/]+)";[^\S
 _DECLARATION = re.compile(
     r"^(export\s+)?((?:async\s+)?function\b\s*\*?\s*|(?:const|let|class)\s+)([\w$]+)", re.MULTILINE
 )
-_OTHER_FORM = re.compile(r"^(?:import|export)\b.*|\bimport\s*(?:\(|\.\s*meta\b).*", re.MULTILINE)
+_OTHER_FORM = re.compile(r"^(?:import|export)\b.*|(?<![\w$.#])import\s*(?:\(|\.\s*meta\b).*", re.MULTILINE)
 
 # A worker is made of the text of the very function that makes it: no address need be known.
 _BUNDLE = """\

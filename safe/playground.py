@@ -20,8 +20,9 @@ from safe.evolution import Generation, Run, Seed, seed_sequence
 from safe.maze import Maze, load_maze, parse_maze
 from safe.robot import WEIGHTS, path
 
-_NUMBER = r"(?:0x[0-9a-fA-F]+|[0-9]{1,4000})"  # Python reads no decimal number of more than 4300 digits
+_NUMBER = r"(?:0x[0-9a-fA-F]{1,64}|[0-9]{1,80})"
 _SEED = re.compile(rf"({_NUMBER}(?:,{_NUMBER})*)(?:/({_NUMBER}(?:,{_NUMBER})*))?")
+_LARGEST = 2**256 - 1  # number in a seed; the digest of an experiment has as many bits
 _POOL_SIZE = np.random.SeedSequence(0).pool_size  # the only one that the page knows
 
 
@@ -55,8 +56,8 @@ def _seed_text(seed: Seed) -> str:
     if sequence.pool_size != _POOL_SIZE:
         raise ValueError(f"seed must have a pool_size of {_POOL_SIZE}; was {sequence.pool_size}")
     entropy = sequence.entropy if isinstance(sequence.entropy, Iterable) else [sequence.entropy]
-    parts = ([checks.integer("seed", word, 0) for word in words] for words in (entropy, sequence.spawn_key))
-    return "/".join(",".join(str(word) if word < 2**53 else hex(word) for word in words) for words in parts if words)
+    parts = ([checks.integer("seed", word, 0, _LARGEST) for word in words] for words in (entropy, sequence.spawn_key))
+    return "/".join(",".join(str(word) if word < 2**64 else hex(word) for word in words) for words in parts if words)
 
 
 def _read_seed(text: object) -> Seed:

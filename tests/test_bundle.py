@@ -1,13 +1,11 @@
-import shutil
 import subprocess
 
 import pytest
 
 from safe import bundle
+from tests.playground.twin import NODE, needs_node
 
 ENTRY = ("entry.js",)
-
-needs_node = pytest.mark.skipif(shutil.which("node") is None, reason="no Node found")
 
 
 @pytest.fixture
@@ -24,7 +22,7 @@ def write(tmp_path):
 
 def node(text):
     """What a script logs."""
-    run = subprocess.run(["node", "-"], input=text, capture_output=True, text=True)
+    run = subprocess.run([NODE, "-"], input=text, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
     return run.stdout
 
@@ -57,6 +55,12 @@ function hidden() { return 100; }
         "console.log(numbers(), Object.keys(others)); later().then((pair) => console.log(sum(pair)));"
     )
     assert log == "[ 0, 2, 3 ] []\n103\n"
+
+
+@needs_node
+def test_a_method_may_be_called_import(write):
+    folder = write(entry="export class Taker { #import() { return 7; } import() { return this.#import(); } }\n")
+    assert node(bundle.script(ENTRY, folder) + "console.log(new (playground().Taker)().import());") == "7\n"
 
 
 @needs_node
@@ -140,3 +144,10 @@ def test_a_circle_of_imports(write):
 def test_other_forms_are_refused(write, line):
     with pytest.raises(ValueError, match=r"^entry\.js must import and export as bundle\.py reads it; was '"):
         bundle.script(ENTRY, write(entry=f"{line}\n", base="export const a = 1;\n"))
+
+
+@needs_node
+def test_the_playground_is_bundled():
+    text = bundle.script()
+    parts = node(text + "const { mount, serve, makeWorker, ...more } = playground(); console.log(Object.keys(more));")
+    assert parts == "[]\n"

@@ -69,8 +69,8 @@ def test_a_controller_in_any_form(playground, controller):
     [
         (7, "7"),
         (np.int64(7), "7"),
-        (2**53 - 1, "9007199254740991"),
-        (2**200 + 1, hex(2**200 + 1)),
+        (2**64 - 1, "18446744073709551615"),
+        (2**256 - 1, "0x" + 64 * "f"),
         ((1, 2, 3), "1,2,3"),
         ([1, 2**70], "1,0x400000000000000000"),
         (np.random.SeedSequence(7), "7"),
@@ -156,6 +156,7 @@ BAD = [
     ("controller", "0" * 16, "controller must be an array of numbers; was '0000000000000000'"),
     ("seed", -1, "seed must be a non-negative integer, a sequence of them, or a SeedSequence; was -1"),
     ("seed", "7", "seed must be a non-negative integer, a sequence of them, or a SeedSequence; was '7'"),
+    ("seed", 2**256, "seed must be an integer from 0 to [0-9]*; was "),
     ("seed", np.random.SeedSequence(7, pool_size=8), "seed must have a pool_size of 4; was 8"),
     ("result", {"success": True}, "result must be a safe.Run or None; was {'success': True}"),
 ]
