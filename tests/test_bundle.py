@@ -59,8 +59,8 @@ function hidden() { return 100; }
 
 @needs_node
 def test_a_method_may_be_called_import(write):
-    folder = write(entry="export class Taker { #import() { return 7; } import() { return this.#import(); } }\n")
-    assert node(bundle.script(ENTRY, folder) + "console.log(new (playground().Taker)().import());") == "7\n"
+    folder = write(entry="export class Taker { #import() { return 7; } take() { return this.#import(); } }\n")
+    assert node(bundle.script(ENTRY, folder) + "console.log(new (playground().Taker)().take());") == "7\n"
 
 
 @needs_node
