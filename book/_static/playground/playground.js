@@ -70,11 +70,14 @@ export function mount(element, { state = {}, makeWorker, onChange = () => {}, ad
 
   const store = new Store({ ...usual(), ...fromOutside(state) });
   const welcome = make("p", { class: "welcome", hidden: true }, WELCOME);
-  const text = address?.location.hash.slice(1) ?? "";
-  if (address && text === "") {
+  const addressed = () => {
+    const text = address?.location.hash.slice(1) ?? "";
+    return document.getElementById(text) ? "" : text; // a place on the page is no state
+  };
+  if (address && addressed() === "") {
     Object.assign(store.state, opening());
     welcome.hidden = false;
-  } else complain(() => Object.assign(store.state, readAddress(text)));
+  } else complain(() => Object.assign(store.state, readAddress(addressed())));
 
   const given = { complain, report, makeWorker, onresult: (result) => store.set({ result }) };
   const views = {
@@ -100,7 +103,11 @@ export function mount(element, { state = {}, makeWorker, onChange = () => {}, ad
     address.history.replaceState(null, "", `#${writeAddress(store.state)}`);
   };
   const read = () => {
-    complain(() => store.set({ ...usual(), ...readAddress(address.location.hash.slice(1)), result: null }, "outside"));
+    if (addressed() === "") return;
+    complain(() => {
+      store.set({ ...usual(), ...readAddress(addressed()), result: null }, "outside");
+      root.scrollIntoView({ block: "nearest" });
+    });
   };
   store.listen((names, source) => {
     if (names.includes("view")) {
