@@ -4,7 +4,8 @@ benchmarks/results.json holds, for each benchmark, its group, the seconds of one
 measured: most often the `generations` that one round covers, so that median / generations are seconds a generation.
 
 Seconds are those of the processor, so that other programs on the machine disturb little (of all threads together, where
-there are several); in the groups "paper" and "first use", where they are waited for, those of the clock on the wall.
+there are several); in the groups "paper", "first use" and "twin", where they are waited for, those of the clock on the
+wall.
 """
 
 import time

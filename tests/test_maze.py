@@ -118,49 +118,47 @@ def test_sensors_are_those_of_the_oracle_in_every_cell(maze):
         assert maze.sensors[row, column].tolist() == list(expected.values())
 
 
-@pytest.mark.parametrize(
-    ("text", "complaint"),
-    [
-        ("", "at least one row; was empty"),
-        ("S..\n..", "rectangle; was 2 cells wide in row 2, 3 in row 1"),
-        ("S.?G", r"only . 0 # 1 S 2 G 3; was '\?' in row 1"),
-        ("S...", "exactly one goal; had 0"),
-        ("...G", "exactly one start; had 0"),
-        ("S.SG", "exactly one start; had 2"),
-        ("S#G", r"goal must be reachable from the start \(0, 0\) through open cells; was \(0, 2\)"),
-        ("S#\n#G", "goal must be reachable"),
-    ],
-)
+BAD_DRAWINGS = [
+    ("", "at least one row; was empty"),
+    ("S..\n..", "rectangle; was 2 cells wide in row 2, 3 in row 1"),
+    ("S.?G", r"only . 0 # 1 S 2 G 3; was '\?' in row 1"),
+    ("S...", "exactly one goal; had 0"),
+    ("...G", "exactly one start; had 0"),
+    ("S.SG", "exactly one start; had 2"),
+    ("S#G", r"goal must be reachable from the start \(0, 0\) through open cells; was \(0, 2\)"),
+    ("S#\n#G", "goal must be reachable"),
+]
+
+
+@pytest.mark.parametrize(("text", "complaint"), BAD_DRAWINGS)
 def test_bad_drawings(text, complaint):
     with pytest.raises(ValueError, match=complaint):
         Maze.from_drawing(text)
 
 
 GOOD = "size 3,3\nstart 0,0\ngoal 2,2\n"
+BAD_LISTS = [
+    (GOOD.replace("goal 2,2\n", ""), "must give the goal; had none"),
+    (GOOD.replace("start 0,0\n", ""), "must give the start; had none"),
+    (GOOD + "size 3,3", "size must be given once; was given again in line 4"),
+    (GOOD + "door 1,1", "must begin with size, start, goal or wall; was 'door' in line 4"),
+    (GOOD + "wall 1,1", "wall must be followed by row,column row,column; was not in line 4"),
+    (GOOD + "wall 1,1 1,x", "wall must be followed by row,column row,column; was '1,x' in line 4"),
+    (GOOD + "wall 0,1 -1,1", "was '-1,1' in line 4"),
+    (GOOD + "wall 1,1 1,3", "wall must lie within the 3 by 3 cells; was at 1,3 in line 4"),
+    (GOOD + "wall 0,1 2,2", "wall must be horizontal, vertical or diagonal; was not in line 4"),
+    (GOOD + "wall 0,0 0,1", r"start must be an open cell; was \(0, 0\), which is wall"),
+    (GOOD + "wall 2,2 2,2", r"goal must be an open cell; was \(2, 2\), which is wall"),
+    (GOOD + "wall 0,1 2,1", "goal must be reachable"),
+    (GOOD.replace("2,2", "0,0"), "goal must be another cell than the start"),
+    (GOOD.replace("2,2", "3,0"), r"goal must be a \(row, column\) within the 3 by 3 cells; was \(3, 0\)"),
+    (GOOD.replace("3,3", "0,3"), "size must be 1 to 2048 cells a side; was 0,3"),
+    (GOOD.replace("3,3", "9999,9999"), "size must be 1 to 2048 cells a side"),
+    (GOOD.replace("3,3", "9999999999999,3"), "size must be followed by height,width"),
+]
 
 
-@pytest.mark.parametrize(
-    ("text", "complaint"),
-    [
-        (GOOD.replace("goal 2,2\n", ""), "must give the goal; had none"),
-        (GOOD.replace("start 0,0\n", ""), "must give the start; had none"),
-        (GOOD + "size 3,3", "size must be given once; was given again in line 4"),
-        (GOOD + "door 1,1", "must begin with size, start, goal or wall; was 'door' in line 4"),
-        (GOOD + "wall 1,1", "wall must be followed by row,column row,column; was not in line 4"),
-        (GOOD + "wall 1,1 1,x", "wall must be followed by row,column row,column; was '1,x' in line 4"),
-        (GOOD + "wall 0,1 -1,1", "was '-1,1' in line 4"),
-        (GOOD + "wall 1,1 1,3", "wall must lie within the 3 by 3 cells; was at 1,3 in line 4"),
-        (GOOD + "wall 0,1 2,2", "wall must be horizontal, vertical or diagonal; was not in line 4"),
-        (GOOD + "wall 0,0 0,1", r"start must be an open cell; was \(0, 0\), which is wall"),
-        (GOOD + "wall 2,2 2,2", r"goal must be an open cell; was \(2, 2\), which is wall"),
-        (GOOD + "wall 0,1 2,1", "goal must be reachable"),
-        (GOOD.replace("2,2", "0,0"), "goal must be another cell than the start"),
-        (GOOD.replace("2,2", "3,0"), r"goal must be a \(row, column\) within the 3 by 3 cells; was \(3, 0\)"),
-        (GOOD.replace("3,3", "0,3"), "size must be 1 to 2048 cells a side; was 0,3"),
-        (GOOD.replace("3,3", "9999,9999"), "size must be 1 to 2048 cells a side"),
-        (GOOD.replace("3,3", "9999999999999,3"), "size must be followed by height,width"),
-    ],
-)
+@pytest.mark.parametrize(("text", "complaint"), BAD_LISTS)
 def test_bad_lists(text, complaint):
     with pytest.raises(ValueError, match=complaint):
         parse_maze(text)

@@ -1,49 +1,27 @@
 """Every page as a browser shows it. Skipped where there is no Chromium."""
 
-import functools
-import http.server
 import re
-import shutil
-import threading
 from pathlib import Path
 from urllib.parse import unquote, urljoin, urlparse
 
 import pytest
 
-BROWSERS = (
-    "chromium",
-    "chromium-browser",
-    "google-chrome",
-    "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
-)
-BROWSER = next((found for name in BROWSERS if (found := shutil.which(name))), None)
+from tests.browser import chromium, needs_browser, serving
+
 DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 800}
-
-needs_browser = pytest.mark.skipif(BROWSER is None, reason="no Chromium found: install Debian's chromium, or Chrome")
-
-
-class Quiet(http.server.SimpleHTTPRequestHandler):
-    def log_message(self, *arguments):
-        pass
 
 
 @pytest.fixture(scope="module")
 def site(checkout):
     """The address of the built book, served on this machine."""
-    handler = functools.partial(Quiet, directory=checkout / "_build" / "html")
-    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
-        threading.Thread(target=server.serve_forever).start()
-        yield f"http://127.0.0.1:{server.server_port}/"
-        server.shutdown()
+    with serving(checkout / "_build" / "html") as address:
+        yield address
 
 
 @pytest.fixture(scope="module")
 def browser():
-    sync_api = pytest.importorskip("playwright.sync_api")
-    with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"])
+    with chromium() as browser:
         yield browser
-        browser.close()
 
 
 @pytest.fixture(scope="module")

@@ -12,13 +12,7 @@ export function shown(value) {
   let text;
   if (typeof value === "string") {
     const quote = value.includes("'") && !value.includes('"') ? '"' : "'";
-    const escaped = value
-      .replace(/\\/g, "\\\\")
-      .replace(/\n/g, "\\n")
-      .replace(/\r/g, "\\r")
-      .replace(/\t/g, "\\t")
-      .replace(/[\x00-\x1f\x7f-\xa0]/g, (c) => "\\x" + c.charCodeAt(0).toString(16).padStart(2, "0"))
-      .replaceAll(quote, "\\" + quote);
+    const escaped = value.replace(/\\|(?! )[\p{C}\p{Z}]/gu, escapedCharacter).replaceAll(quote, "\\" + quote);
     text = quote + escaped + quote;
   } else if (value === undefined || value === null) text = "None";
   else if (Array.isArray(value)) text = `[${value.map(shown).join(", ")}]`;
@@ -26,6 +20,14 @@ export function shown(value) {
   else text = String(value);
   const characters = [...text];
   return characters.length <= 80 ? text : characters.slice(0, 77).join("") + "...";
+}
+
+/** A backslash, or a character that does not print, as Python writes it in a text. */
+function escapedCharacter(character) {
+  const short = { "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t" }[character];
+  const code = character.codePointAt(0);
+  const [letter, digits] = code < 0x100 ? ["x", 2] : code < 0x10000 ? ["u", 4] : ["U", 8];
+  return short ?? `\\${letter}${code.toString(16).padStart(digits, "0")}`;
 }
 
 /** `value`, which must be an integer in low..high, both included. */

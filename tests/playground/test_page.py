@@ -1,0 +1,14 @@
+"""The engine in a page, and not in a worker of it: modules that a page can load, and the same runs."""
+
+import safe
+from tests.browser import needs_browser
+from tests.playground.test_twin import runs_of_every_kind
+from tests.playground.twin import IN_PAGE, in_browser, run_of, told
+
+
+@needs_browser
+def test_some_runs_in_a_page():
+    runs = runs_of_every_kind()[:20]
+    with in_browser(IN_PAGE) as page:
+        found = page.results(run_of("evolve", *run) for run in runs)
+    assert found == [told(safe.evolve(*run)) for run in runs]

@@ -1,0 +1,389 @@
+"""The engine of the playground gives what the package gives, bit for bit. Skipped without Node, without Chromium."""
+
+import functools
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+import safe
+from safe import Algorithm, Experiment, Maze, NoveltyArchive, Parameters, checks, load_maze
+from safe.maze import MAZE_FOLDER, parse_maze, ways_to_goal
+from safe.novelty import METRICS
+from tests import fuzz, golden, record
+from tests.conftest import controllers, mazes
+from tests.playground.twin import TWINS, run_of, told
+from tests.test_maze import BAD_DRAWINGS, BAD_LISTS
+from tests.test_novelty import generations_of_points
+from tests.test_robot import reference_endpoints
+
+DATA = Path(__file__).parents[1] / "data"
+RUNS = 200
+
+
+@pytest.fixture(scope="module", params=TWINS)
+def twin(request):
+    with request.param() as twin:
+        yield twin
+
+
+# The maze and the robot
+
+
+def described(maze):
+    """A maze as the engine tells it."""
+    return {
+        "name": maze.name,
+        "height": maze.shape[0],
+        "width": maze.shape[1],
+        "walls": maze.walls.astype(int).ravel().tolist(),
+        "start": list(maze.start),
+        "goal": list(maze.goal),
+        "sensors": maze.sensors.ravel().tolist(),
+    }
+
+
+def parsed(text):
+    """What comes of a text, as an answer of the twin."""
+    try:
+        return {"result": described(parse_maze(text))}
+    except ValueError as error:
+        return {"error": str(error)}
+
+
+def assert_parsed_alike(twin, texts):
+    calls = [{"function": "parseMaze", "maze": text} for text in texts]
+    for text, answer in zip(texts, twin.answers(calls), strict=True):
+        answer.pop("stack", None)
+        assert answer == parsed(text), repr(text)
+
+
+def test_the_papers_mazes_from_their_files(twin):
+    texts = [path.read_text() for path in MAZE_FOLDER.glob("*.maze")]
+    assert len(texts) == 2
+    assert_parsed_alike(twin, texts)
+
+
+def test_a_maze_has_its_name(twin):
+    (maze,) = twin.results([{"function": "parseMaze", "maze": "S.G", "name": "mine"}])
+    assert maze["name"] == "mine"
+
+
+def test_a_text_that_is_no_maze_is_refused_in_the_same_words(twin):
+    assert_parsed_alike(twin, [text for text, _ in BAD_DRAWINGS + BAD_LISTS])
+
+
+@given(texts=st.lists(fuzz.MAZE_FILES.map(lambda data: data.decode("utf-8", "surrogateescape")), max_size=20))
+def test_whatever_the_text_it_is_the_same_maze_or_the_same_words(twin, texts):
+    assert_parsed_alike(twin, texts)
+
+
+# characters that every edition of Unicode knows, which are as good as any
+@given(
+    texts=st.lists(st.text(st.characters(codec="latin-1") | st.sampled_from("٣\u2028\u3000\ud800\ue000😀\U000e0001")))
+)
+def test_a_text_is_shown_as_by_python(twin, texts):
+    calls = [{"function": "shown", "value": text} for text in texts]
+    assert twin.results(calls) == [checks.shown(text) for text in texts]
+
+
+@given(maze=mazes(), batch=controllers(count=5), steps=st.integers(0, 400))
+def test_mazes_paths_and_endpoints(twin, maze, batch, steps):
+    at = {"maze": maze.drawing(), "steps": steps}
+    paths = [{"function": "path", "controller": controller, **at} for controller in batch.tolist()]
+    endpoints = {"function": "endpoints", "controllers": batch.tolist(), **at}
+    *walked, ended = twin.results([*paths, endpoints])
+    assert walked == [safe.path(maze, controller, steps).tolist() for controller in batch]
+    assert ended == safe.endpoints(maze, batch, steps).tolist()
+    assert_parsed_alike(twin, [maze.drawing()])
+
+
+@given(maze=mazes())
+def test_a_maze_is_written_as_a_drawing_and_as_a_list(twin, maze):
+    (written,) = twin.results([{"function": "writtenMaze", "maze": maze.drawing()}])
+    assert written["drawing"] == maze.drawing()
+    assert parse_maze(written["list"]) == maze
+    assert written["list"].startswith("size ")
+    assert written["ways"] == ways_to_goal(maze).ravel().tolist()
+
+
+def test_every_reference_end_point(twin):
+    rows = list(reference_endpoints())
+    assert len(rows) == 320
+    calls, expected = [], []
+    for maze, steps in sorted({row[:2] for row in rows}):
+        walks = [row[2:] for row in rows if row[:2] == (maze, steps)]
+        at = {"maze": load_maze(maze).drawing(), "steps": steps}
+        calls.append({"function": "endpoints", "controllers": [controller for controller, _ in walks], **at})
+        expected.append([list(end) for _, end in walks])
+        calls.append({"function": "path", "controller": walks[0][0], **at})
+        expected.append(safe.path(maze, walks[0][0], steps).tolist())
+    assert twin.results(calls) == expected
+
+
+# Novelty
+
+
+def archived(generations, **arguments):
+    """What the package's archive tells after each generation, as the engine's does."""
+    archive = NoveltyArchive(**arguments)
+    for points in generations:
+        novelty = archive.score(points).tolist()
+        listed = {"points": archive.points.tolist(), "scores": archive.scores.tolist()}
+        yield {"novelty": novelty, **listed, "length": len(archive)}
+
+
+@pytest.mark.parametrize(
+    ("points", "scores", "metric"),
+    [("endpoints", "endpoint_novelty", "taxicab"), ("objectives", "objective_novelty", "euclidean")],
+)
+def test_every_reference_score(twin, points, scores, metric):
+    with np.load(DATA / "novelty.npz") as reference:
+        generations, expected = reference[points].tolist(), reference[scores]
+    (told,) = twin.results([{"function": "NoveltyArchive", "metric": metric, "generations": generations}])
+    np.testing.assert_allclose([after["novelty"] for after in told], expected, rtol=0, atol=1e-12)
+    assert told == list(archived(generations, metric=metric))
+
+
+@given(
+    generations=generations_of_points().map(
+        lambda generations: [points.tolist() for points in generations if len(points)]
+    ),
+    capacity=st.integers(0, 12),
+    k=st.integers(1, 20),
+    metric=st.sampled_from(METRICS),
+)
+def test_scores_and_archives_of_any_points(twin, generations, capacity, k, metric):
+    settings = {"capacity": capacity, "k": k, "metric": metric}
+    (told,) = twin.results([{"function": "NoveltyArchive", "generations": generations, **settings}])
+    assert told == list(archived(generations, **settings))
+
+
+# Runs
+
+
+def drawn_maze(rng):
+    """A maze with walls at random."""
+    while True:
+        height, width = rng.integers(2, 40, 2)
+        cells = [tuple(map(int, rng.integers((height, width)))) for _ in range(2)]
+        try:
+            return Maze(rng.random((height, width)) < 0.3, *cells)
+        except ValueError:  # an end in a wall, no way between them
+            continue
+
+
+def drawn_algorithm(rng):
+    """One by its name, or any that one might write."""
+    given = rng.uniform(-0.2, 1, (2 * int(rng.integers(2, 9)), 2)).tolist()
+    return [
+        *safe.ALGORITHMS,
+        Algorithm("a quarter", [(0.25, 0.75)]),
+        Algorithm("several", given[: rng.integers(1, len(given))]),
+        Algorithm("drawn", None),
+        Algorithm("given", given, "genotypic novelty"),
+    ][rng.integers(9)]
+
+
+def drawn_parameters(rng):
+    return Parameters(
+        population=2 * int(rng.integers(2, 25)),
+        objectives=2 * int(rng.integers(2, 25)),
+        generations=int(rng.integers(1, 40)),
+        tournament=int(rng.integers(1, 8)),
+        elites=int(rng.choice([0, 2, 2])),
+        crossover=rng.choice([0.0, 0.8, 1.0]),
+        mutation=rng.choice([0.0, 0.4, 1.0]),
+        k=int(rng.choice([1, 4, 15, 200, 1_000_000])),
+        archive=int(rng.choice([0, 1, 30, 200, 1000])),
+        steps=int(rng.choice([1, 50, 300, 1001])),
+        success_distance=int(rng.choice([0, 0, 2, 5])),
+    )
+
+
+def drawn_seed(rng):
+    """A seed in one of its forms."""
+    words = [int(word) for word in rng.integers(2**63, size=5)]
+    return [
+        words[0] % 1000,
+        words[0],
+        (words[0] << 200) + words[1],
+        words,
+        np.random.SeedSequence(words[0], spawn_key=words[3:4]).spawn(2)[1],
+        Experiment("safe", "maze1", seed=words[0]).seed_sequence(17),
+    ][rng.integers(6)]
+
+
+@functools.cache
+def runs_of_every_kind():
+    """The arguments of 200 runs."""
+    rng = np.random.default_rng(2019)
+    papers = [load_maze("maze1"), load_maze("maze2")]
+    runs = [
+        (
+            drawn_maze(rng) if rng.random() < 0.5 else papers[rng.integers(2)],
+            drawn_algorithm(rng),
+            drawn_seed(rng),
+            drawn_parameters(rng),
+        )
+        for _ in range(RUNS - 5)
+    ]
+    large, far_apart = np.zeros((300, 260), dtype=bool), Parameters(40, 40, generations=8, steps=5000, archive=50)
+    smallest = Parameters(2, 2, elites=0, generations=30)
+    return [
+        *runs,
+        (Maze(large, (150, 130), (0, 0)), "novelty", 0, far_apart),
+        (Maze(large, (150, 130), (0, 0)), "safe", 2**64, far_apart),
+        (papers[0], "safe", 0, smallest),
+        (papers[1], "novelty", [0, 0], smallest),
+        (Maze.from_drawing("SG"), "fixed", [2**40], Parameters(generations=3)),
+    ]
+
+
+def test_runs_of_every_kind(twin):
+    runs = runs_of_every_kind()
+    found = twin.results(run_of("evolve", *run) for run in runs)
+    for run, got in zip(runs, found, strict=True):
+        assert got == told(safe.evolve(*run)), run
+    assert {got["success"] for got in found} == {False, True}
+
+
+def test_every_generation_of_some_of_them(twin):
+    for run in runs_of_every_kind()[::4]:
+        (found,) = twin.results([run_of("generations", *run)])
+        assert found == [told(generation) for generation in safe.generations(*run)], run
+
+
+@pytest.mark.parametrize("maze", ["maze1", "maze2"])
+@pytest.mark.parametrize("algorithm", safe.ALGORITHMS)
+def test_every_generation_until_the_archives_are_full_and_beyond(twin, algorithm, maze):
+    run = load_maze(maze), algorithm, 7, Parameters(generations=9, success_distance=0)
+    (found,) = twin.results([run_of("generations", *run)])
+    assert found == [told(generation) for generation in safe.generations(*run)]
+
+
+@pytest.mark.parametrize("archive", [0, 300, 1000])
+def test_neighbours_are_those_that_make_the_novelty(twin, archive):
+    run = load_maze("maze2"), "novelty", 3, Parameters(generations=4, archive=archive)
+    (neighbours,) = twin.results([run_of("neighbours", *run)])
+    *_, before, last = safe.generations(*run)
+    archived = [*before.archive[0].tolist(), *last.endpoints.tolist()]
+    for found, point, novelty in zip(neighbours, last.endpoints, last.novelty, strict=True):
+        distances = [neighbour["distance"] for neighbour in found]
+        assert distances == sorted(distances)
+        assert len(distances) == 15
+        assert sum(distances) / 15 == novelty
+        for neighbour in found:
+            assert np.abs(point - neighbour["point"]).sum() == neighbour["distance"]
+            assert neighbour["point"] in (last.endpoints.tolist() if neighbour["from"] == "population" else archived)
+    assert any(neighbour["from"] == "archive" for found in neighbours for neighbour in found) == (archive > 0)
+
+
+BAD_ARGUMENTS = [
+    *({"algorithm": name} for name in ("saef", "", "constructor", None)),
+    {"algorithm": ("mine", None, "by taste")},
+    {"algorithm": ("mine", [(1, 0, 0)])},
+    {"algorithm": ("mine", [(1, 1e308)])},
+    {"algorithm": ("mine", [(1, 0)] * 3, "genotypic novelty")},
+    {"algorithm": ("mine", [], "genotypic novelty")},
+    {"algorithm": ("mine", [(1, 0)] * 2, "genotypic novelty")},
+    *({"seed": seed} for seed in (-1, 0.5, None, [], [1, -2])),
+    *({"parameters": {"population": value}} for value in (0, 51, 2, 1.5, "1", None, 10**9)),
+    *({"parameters": {"objectives": value}} for value in (-2, 3, 2)),
+    *({"parameters": {"elites": value}} for value in (-1, 1, 200)),
+    *({"parameters": {"crossover": value}} for value in (-0.5, 1.01, None)),
+    *(
+        {"parameters": {name: -1}}
+        for name in ("generations", "tournament", "k", "archive", "steps", "success_distance")
+    ),
+    *({"parameters": {name: 0}} for name in ("generations", "tournament", "k", "steps")),
+    {"parameters": {"mutation": 2, "k": 0}},
+]
+
+
+@pytest.mark.parametrize("function", ["evolve", "generations"])
+def test_bad_arguments_are_refused_in_the_same_words(twin, function):
+    calls = []
+    for bad in BAD_ARGUMENTS:
+        call = {"function": function, "maze": "S.G", "algorithm": "safe", "seed": 0, "parameters": {}, **bad}
+        if isinstance(call["algorithm"], tuple):
+            call["algorithm"] = dict(zip(("name", "objectives", "rating"), call["algorithm"], strict=False))
+        calls.append(call)
+    for call, answer in zip(calls, twin.answers(calls), strict=True):
+        algorithm = call["algorithm"]
+        with pytest.raises(ValueError, match=" must ") as refused:
+            safe.evolve(
+                Maze.from_drawing(call["maze"]),
+                Algorithm(**algorithm) if isinstance(algorithm, dict) else algorithm,
+                call["seed"],
+                Parameters(**call["parameters"]),
+            )
+        assert answer.get("error") == str(refused.value), call
+
+
+@pytest.mark.parametrize(
+    "arguments", [{"k": 0}, {"k": 1.5}, {"capacity": -1}, {"capacity": 10**7}, {"metric": "cosine"}, {"metric": None}]
+)
+def test_bad_archives_are_refused_in_the_same_words(twin, arguments):
+    (answer,) = twin.answers([{"function": "NoveltyArchive", "generations": [], **arguments}])
+    with pytest.raises(ValueError, match="must be") as refused:
+        NoveltyArchive(**arguments)
+    assert answer.get("error") == str(refused.value)
+
+
+def test_golden_runs(twin):
+    golden_runs = json.loads(golden.FILE.read_text())["runs"]
+    found = twin.results(
+        run_of("evolve", load_maze(run["maze"]), run["algorithm"], run["seed"], Parameters()) for run in golden_runs
+    )
+    assert found == [run["outcome"] for run in golden_runs]
+
+
+def test_runs_behind_the_ledger(twin):
+    """The soonest to succeed of each evolutionary algorithm's 500 in either maze, as they were recorded."""
+    recorded = record.recorded_runs()
+    calls, expected = [], []
+    for experiment in record.experiments():
+        runs = recorded[record.key(experiment)]
+        if experiment.algorithm.is_random_search:
+            continue
+        for number, row in runs[runs.success].sort_values("generation", kind="stable").head(3).iterrows():
+            run = experiment.maze, experiment.algorithm, experiment.seed_sequence(number), Parameters()
+            calls.append(run_of("evolve", *run))
+            expected.append((row.generation, row.distance, row.filter(regex=r"^p\d+$").tolist()))
+    assert len(calls) > 12
+    for got, (generation, distance, controller) in zip(twin.results(calls), expected, strict=True):
+        assert (got["generation"], got["distance"]) == (generation, distance)
+        assert got["controller"] == controller or np.isnan(controller).all()
+
+
+def test_the_default_parameters(twin):
+    call = run_of("evolve", load_maze("maze1"), "random", 5, Parameters())
+    del call["parameters"]
+    (found,) = twin.results([call])
+    assert found == told(safe.evolve("maze1", "random", 5))
+
+
+seeds = st.integers(0, 2**300) | st.sampled_from([0, 1, 2**32 - 1, 2**32, 2**53, 2**64])
+
+
+@settings(max_examples=30)
+@given(
+    seed=seeds
+    | st.lists(seeds, min_size=1, max_size=6)
+    | st.builds(
+        lambda entropy, key: np.random.SeedSequence(entropy, spawn_key=key),
+        seeds | st.lists(seeds, min_size=1, max_size=6),
+        st.lists(st.integers(0, 2**40), max_size=3),
+    )
+)
+@example(np.random.SeedSequence([2**64, 0], spawn_key=(0,)))
+def test_random_search_draws_the_numbers_of_numpy(twin, seed):
+    parameters = Parameters(20, 20, generations=3, steps=1)
+    (found,) = twin.results([run_of("generations", Maze.from_drawing("S.G"), "random", seed, parameters)])
+    sequence = seed if isinstance(seed, np.random.SeedSequence) else np.random.SeedSequence(seed)
+    drawn = -1 + 2 * np.random.Generator(np.random.SFC64(sequence)).random((3, 20, 16))
+    assert [generation["genomes"] for generation in found] == drawn.tolist()

@@ -1,0 +1,5 @@
+// Answers one message after the other.
+
+import { answer } from "./call.mjs";
+
+onmessage = ({ data }) => postMessage(answer(data));
