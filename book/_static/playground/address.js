@@ -1,7 +1,7 @@
 // The state of the playground as the part of a page's address behind the #, and back; safe/address.py writes the same.
 
 import { ALGORITHMS, checkedAlgorithm, checkedParameters, PARAMETERS, RATINGS } from "./algorithms.js";
-import { checkedChoice, checkedRows, InputError, shown } from "./checks.js";
+import { checkedChoice, checkedRow, InputError, shown } from "./checks.js";
 import { drawingOf, LONGEST_SIDE, makeMaze, parseMaze } from "./maze.js";
 import { MAZES } from "./mazes.js";
 import { checkedSeed } from "./random.js";
@@ -82,7 +82,7 @@ export function isNamed(maze) {
 /** 16 weights from a text, or from an array of numbers. */
 export function readController(value) {
   const weights = typeof value === "string" ? value.split(",").map(readWeight) : value;
-  return [...checkedRows("controller", [weights], WEIGHTS, -1, 1)];
+  return [...checkedRow("controller", weights, WEIGHTS, -1, 1)];
 }
 
 function readWeight(text) {
