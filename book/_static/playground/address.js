@@ -90,14 +90,14 @@ function readWeight(text) {
 }
 
 function readNumber(name, text) {
-  if (!/^[0-9]{1,9}(\.[0-9]{1,20})?$/.test(text)) throw new InputError(`${name} must be a number; was ${shown(text)}`);
+  if (!/^[0-9]{1,9}(\.[0-9]{1,20})?(e-[0-9]{1,3})?$/.test(text)) throw new InputError(`${name} must be a number; was ${shown(text)}`);
   return Number(text);
 }
 
 function readAlgorithm(text) {
   const [name, rating, objectives, ...more] = text.split(":");
   if (rating === undefined) return checkedAlgorithm(name);
-  const weights = objectives === "drawn" ? null : (objectives ?? "").split(",").map(readWeight);
+  const weights = objectives === "drawn" ? null : objectives ? objectives.split(",").map(readWeight) : [];
   if (more.length > 0 || !Object.hasOwn(RATING_CODES, rating) || (weights !== null && weights.length % 2)) {
     throw new InputError(`algorithm must be a name, or name:rating:a,b,...; was ${shown(text)}`);
   }
