@@ -45,7 +45,7 @@ def stamp(notebook: Path, parameters: dict[str, object]) -> dict[str, object]:
     """What an execution of a notebook with these parameters depends on: not on what only runs in a browser."""
     package = hashlib.sha256()
     for file in sorted((ROOT / "safe").rglob("*")):
-        if file.is_file() and not {"__pycache__", "javascript"} & set(file.parts):
+        if file.is_file() and not {"__pycache__", "javascript"} & set(file.relative_to(ROOT).parts):
             package.update(f"{file.relative_to(ROOT)}\0".encode() + file.read_bytes())
     return {
         "notebook": hashlib.sha256(notebook.read_bytes()).hexdigest(),

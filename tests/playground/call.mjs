@@ -2,12 +2,14 @@
 // A double comes back as it was, since both sides write the shortest digits that tell it from all others.
 
 import { shown } from "../../book/_static/playground/checks.js";
-import { NoveltyArchive, endpoints, evolve, generations, parseMaze, path } from "../../book/_static/playground/engine.js";
+import {
+  NoveltyArchive, endpoints, evolve, generations, parseMaze, path,
+} from "../../book/_static/playground/engine.js";
 import { Evolution } from "../../book/_static/playground/evolution.js";
 import { drawingOf, listOf, waysToGoal } from "../../book/_static/playground/maze.js";
 
 const FUNCTIONS = {
-  host: () => globalThis.process?.release.name.concat(" ", process.version) ?? navigator.userAgent.match(/\S*Chrom\S*/)[0],
+  host: () => (globalThis.process ? `node ${process.version}` : navigator.userAgent.match(/\S*Chrom\S*/)[0]),
   shown: ({ value }) => shown(value),
   parseMaze: ({ maze, name }) => parseMaze(maze, name),
   writtenMaze: ({ maze }) => {

@@ -41,7 +41,7 @@ export function checkedAlgorithm(algorithm) {
   if (typeof algorithm !== "object" || algorithm === null) {
     return ALGORITHMS[checkedChoice("algorithm", algorithm, Object.keys(ALGORITHMS))];
   }
-  const { name, objectives, rating = "none" } = algorithm;
+  const { name, objectives = null, rating = "none" } = algorithm;
   checkedChoice("rating", rating, RATINGS);
   if (objectives !== null) {
     checkedRows("objectives", objectives, COMPONENTS.length);

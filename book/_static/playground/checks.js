@@ -57,26 +57,35 @@ export function checkedChoice(name, value, allowed) {
 
 /** Rows of numbers as one Float64Array, row after row; each row must have `columns` finite numbers in [low, high]. */
 export function checkedRows(name, rows, columns, low = -LARGEST, high = LARGEST) {
-  const isTable = Array.isArray(rows) && rows.every((row) => Array.isArray(row) || ArrayBuffer.isView(row));
-  if (!isTable || rows.some((row) => [...row].some((number) => typeof number !== "number"))) {
-    throw new InputError(`${name} must be an array of numbers; was ${shown(rows)}`);
+  const isTable = Array.isArray(rows) && rows.every(isRow);
+  if (!isTable) throw new InputError(`${name} must be an array of numbers; was ${shown(rows)}`);
+  const odd = rows.find((row) => row.length !== columns);
+  if (odd) {
+    const isEven = rows.every((row) => row.length === odd.length);
+    const shape = isEven ? `(${rows.length}, ${odd.length})` : "rows of different lengths";
+    throw new InputError(`${name} must have the shape (any, ${columns}); was of shape ${shape}`);
   }
-  const flat = new Float64Array(rows.length * columns);
-  rows.forEach((row, i) => {
-    if (row.length !== columns) {
-      const shape = rows.every((other) => other.length === row.length)
-        ? `(${rows.length}, ${row.length})`
-        : "rows of different lengths";
-      throw new InputError(`${name} must have the shape (any, ${columns}); was of shape ${shape}`);
-    }
-    row.forEach((number, column) => {
-      if (!(Number.isFinite(number) && number >= low && number <= high)) {
-        throw new InputError(
-          `${name} must be finite and in [${low}, ${high}]; was ${number} at index (${i}, ${column})`,
-        );
-      }
-      flat[i * columns + column] = number;
-    });
-  });
-  return flat;
+  rows.forEach((row, i) => checkRange(name, row, low, high, (column) => `(${i}, ${column})`));
+  return Float64Array.from(rows.flatMap((row) => [...row]));
+}
+
+/** One such row. */
+export function checkedRow(name, row, columns, low = -LARGEST, high = LARGEST) {
+  if (!isRow(row)) throw new InputError(`${name} must be an array of numbers; was ${shown(row)}`);
+  if (row.length !== columns) {
+    throw new InputError(`${name} must have the shape (${columns}); was of shape (${row.length},)`);
+  }
+  checkRange(name, row, low, high, (column) => `(${column},)`);
+  return Float64Array.from(row);
+}
+
+function isRow(row) {
+  return (Array.isArray(row) || ArrayBuffer.isView(row)) && row.every((number) => typeof number === "number");
+}
+
+function checkRange(name, row, low, high, indexOf) {
+  const wrong = row.findIndex((number) => !(Number.isFinite(number) && number >= low && number <= high));
+  if (wrong >= 0) {
+    throw new InputError(`${name} must be finite and in [${low}, ${high}]; was ${row[wrong]} at index ${indexOf(wrong)}`);
+  }
 }

@@ -217,20 +217,24 @@ export function scorePoints(points, archive, k, taxicab, scores, first = scores.
  *
  * Euclidean distances stay squared: the order is the same. */
 function nearestDistances(axes, i, size, wanted, taxicab, nearest) {
-  const [xs, ys] = axes, x = xs[i], y = ys[i];
+  const [xs, ys, ...others] = axes, x = xs[i], y = ys[i];
   const last = wanted - 1;
+  let farthest = Infinity; // of those in `nearest`
   nearest.fill(Infinity);
   for (let j = 0; j < size; j++) {
     const dx = xs[j] - x, dy = ys[j] - y;
     let distance = taxicab ? Math.abs(dx) + Math.abs(dy) : dx * dx + dy * dy;
-    for (let axis = 2; axis < axes.length; axis++) {
-      const difference = axes[axis][j] - axes[axis][i];
-      distance += taxicab ? Math.abs(difference) : difference * difference;
+    if (others.length > 0) {
+      for (const axis of others) {
+        const difference = axis[j] - axis[i];
+        distance += taxicab ? Math.abs(difference) : difference * difference;
+      }
     }
-    if (distance < nearest[last]) {
+    if (distance < farthest) {
       let place = last;
       for (; place > 0 && nearest[place - 1] > distance; place--) nearest[place] = nearest[place - 1];
       nearest[place] = distance;
+      farthest = nearest[last];
     }
   }
 }

@@ -49,9 +49,9 @@ export class Sfc64 {
 
 /** The first words of 32 bits that numpy's SeedSequence gives for a seed. */
 function seedWords(seed, count) {
-  const { entropy, spawnKey = [] } = isSequence(seed) ? seed : { entropy: seed };
+  const { entropy, spawnKey } = checkedSeed(seed);
   const words = wordsOf(entropy);
-  const keyWords = spawnKey.length > 0 ? wordsOf(spawnKey) : [];
+  const keyWords = wordsOf(spawnKey);
   while (keyWords.length > 0 && words.length < POOL) words.push(0);
   words.push(...keyWords);
 
@@ -86,22 +86,25 @@ function seedWords(seed, count) {
   return state;
 }
 
-function isSequence(seed) {
-  return typeof seed === "object" && seed !== null && !Array.isArray(seed);
-}
-
-/** A non-negative integer, or several, as words of 32 bits, the lowest first. */
-function wordsOf(entropy) {
-  const numbers = Array.isArray(entropy) ? entropy : [entropy];
-  const areIntegers = numbers.every((n) => (typeof n === "bigint" || Number.isSafeInteger(n)) && n >= 0);
-  if (numbers.length === 0 || !areIntegers) {
+/** A seed as { entropy, spawnKey }, both arrays of BigInt. */
+export function checkedSeed(seed) {
+  const isSequence = typeof seed === "object" && seed !== null && !Array.isArray(seed);
+  const { entropy, spawnKey = [] } = isSequence ? seed : { entropy: seed };
+  const isWhole = (n) => (typeof n === "bigint" || Number.isSafeInteger(n)) && n >= 0;
+  const [entropyList, keyList] = [entropy, spawnKey].map((given) => (Array.isArray(given) ? given : [given]));
+  if (entropyList.length === 0 || ![...entropyList, ...keyList].every(isWhole)) {
     throw new InputError(
       `seed must be a non-negative integer, a sequence of them, or a SeedSequence; was ${shown(entropy)}`,
     );
   }
+  return { entropy: entropyList.map(BigInt), spawnKey: keyList.map(BigInt) };
+}
+
+/** Non-negative integers as words of 32 bits, the lowest first. */
+function wordsOf(numbers) {
   const words = [];
   for (const number of numbers) {
-    let rest = BigInt(number);
+    let rest = number;
     do {
       words.push(Number(rest & 0xffffffffn));
       rest >>= 32n;

@@ -3,7 +3,7 @@
 // Where it goes next depends only on where it stands, so a path that comes back to a cell repeats from there for ever,
 // and its end follows without walking on.
 
-import { checkedInteger, checkedRows, MOST } from "./checks.js";
+import { checkedInteger, checkedRow, checkedRows, MOST } from "./checks.js";
 
 export const WEIGHTS = 16; // p1..p16
 export const STEPS = 300;
@@ -11,7 +11,7 @@ export const STEPS = 300;
 /** The cells that the robot stands on, [row, column] each, the start first; steps + 1 of them. */
 export function path(maze, controller, steps = STEPS) {
   const walker = new Walker(maze, checkedInteger("steps", steps, 0, MOST));
-  walker.walk(checkedRows("controller", [controller], WEIGHTS, -1, 1), 0);
+  walker.walk(checkedRow("controller", controller, WEIGHTS, -1, 1), 0);
   return Array.from({ length: steps + 1 }, (_, step) => walker.position(step));
 }
 

@@ -1,0 +1,104 @@
+// Charts as SVG: lines over a number, and the square of objective functions.
+
+import { make, makeSvg } from "./dom.js";
+
+const WIDTH = 250;
+const HEIGHT = 170;
+const LEFT = 36;
+const BOTTOM = 32;
+const TOP = 10;
+const RIGHT = 10;
+
+/** Lines over a number. */
+export class LineChart {
+  constructor(title, across) {
+    this.title = title;
+    this.across = across;
+    this.drawing = makeSvg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": title });
+    this.element = make("figure", { class: "chart" }, make("figcaption", {}, title), this.drawing);
+  }
+
+  /** series: { label, kind, points: [[x, y]], band: [[x, low, high]] } each; `kind` chooses the looks of a line (see
+   * playground.css). top and last: where the scales end, unless the points go beyond. */
+  show(series, top = 0, last = 1) {
+    const points = series.flatMap(({ points: all, band = [] }) => [...all, ...band.map(([x, , high]) => [x, high])]);
+    const lastX = Math.max(last, ...points.map(([x]) => x));
+    const topY = rounded(Math.max(top, ...points.map(([, y]) => y)) || 1);
+    const toX = (x) => LEFT + (x / lastX) * (WIDTH - LEFT - RIGHT);
+    const toY = (y) => HEIGHT - BOTTOM - (y / topY) * (HEIGHT - BOTTOM - TOP);
+    const corners = (pairs) => pairs.map(([x, y]) => `${toX(x).toFixed(1)},${toY(y).toFixed(1)}`).join(" ");
+    const text = (x, y, content, anchor) => makeSvg("text", { x, y, "text-anchor": anchor }, content);
+    this.drawing.setAttribute("aria-label", `${this.title}: ${series.map(summary).join("; ") || "nothing yet"}`);
+    this.drawing.replaceChildren(
+      makeSvg("path", { class: "axis", d: `M${LEFT},${TOP}V${HEIGHT - BOTTOM}H${WIDTH - RIGHT}` }),
+      text(LEFT - 5, toY(topY) + 8, short(topY), "end"),
+      text(LEFT - 5, toY(topY / 2) + 4, short(topY / 2), "end"),
+      text(LEFT - 5, toY(0), "0", "end"),
+      text(LEFT, HEIGHT - BOTTOM + 14, "0", "middle"),
+      text(WIDTH - RIGHT, HEIGHT - BOTTOM + 14, short(lastX), "end"),
+      text((LEFT + WIDTH - RIGHT) / 2, HEIGHT - 4, this.across, "middle"),
+      ...series.flatMap(({ kind, points: all, band = [] }) => [
+        makeSvg("polygon", {
+          class: `band ${kind}`,
+          points: corners([...band.map(([x, low]) => [x, low]), ...band.map(([x, , high]) => [x, high]).reverse()]),
+        }),
+        makeSvg("polyline", { class: `line ${kind}`, points: corners(all) }),
+      ]),
+    );
+  }
+}
+
+/** The square of objective functions [a, b], those that won among them highlighted. */
+export class ObjectiveSquare {
+  constructor() {
+    this.drawing = makeSvg("svg", { viewBox: "0 0 250 250", role: "img" });
+    this.element = make("figure", { class: "chart square" }, make("figcaption", {}, "Objective functions"), this.drawing);
+  }
+
+  /** groups: { label, kind, objectives: [a, b] each, winners: which of them gave each solution its fitness, chosen: one
+   * to mark, or null }, one for each algorithm. */
+  show(groups) {
+    const top = Math.max(1, ...groups.flatMap(({ objectives }) => objectives.flat().map(Math.abs)));
+    const toX = (a) => LEFT + (a / top) * (WIDTH - LEFT - RIGHT);
+    const toY = (b) => WIDTH - BOTTOM - (b / top) * (WIDTH - BOTTOM - TOP);
+    const dot = ([a, b], r, kind) => makeSvg("circle", { cx: toX(a), cy: toY(b), r, class: kind });
+    const text = (x, y, content, anchor) => makeSvg("text", { x, y, "text-anchor": anchor }, content);
+    const told = [], judges = [], winning = [], marks = [];
+    for (const { label, kind, objectives, winners, chosen } of groups) {
+      const wins = new Map();
+      for (const j of winners) wins.set(j, (wins.get(j) ?? 0) + 1);
+      judges.push(...objectives.map((objective) => dot(objective, 2.2, "judge")));
+      winning.push(...Array.from(wins, ([j, count]) => dot(objectives[j], 3.5 + Math.sqrt(count) / 3, `winner ${kind}`)));
+      if (chosen !== null) marks.push(dot(objectives[chosen], 11, "chosen"));
+      told.push(`${label}: ${objectives.length}, of which ${wins.size} gave solutions their fitness`);
+    }
+    this.drawing.setAttribute("aria-label", `Objective functions by their weights a and b. ${told.join("; ")}`);
+    this.drawing.replaceChildren(
+      makeSvg("path", { class: "axis", d: `M${LEFT},${TOP}V${WIDTH - BOTTOM}H${WIDTH - RIGHT}` }),
+      text(LEFT, WIDTH - BOTTOM + 14, "0", "middle"),
+      text(WIDTH - RIGHT, WIDTH - BOTTOM + 14, short(top), "end"),
+      text(LEFT - 5, WIDTH - BOTTOM, "0", "end"),
+      text(LEFT - 5, TOP + 8, short(top), "end"),
+      text((LEFT + WIDTH - RIGHT) / 2, WIDTH - 4, "a: goal", "middle"),
+      makeSvg("text", { x: 14, y: 110, "text-anchor": "middle", transform: "rotate(-90 14 110)" }, "b: novelty"),
+      ...judges,
+      ...winning,
+      ...marks,
+    );
+  }
+}
+
+/** A number that is easy to read, at least as large. */
+function rounded(value) {
+  const unit = 10 ** Math.floor(Math.log10(value));
+  return [1, 2, 4, 5, 10].map((step) => step * unit).find((step) => step >= value * 0.9999);
+}
+
+/** A number in few characters. */
+function short(value) {
+  return `${Number(value.toPrecision(3))}`;
+}
+
+function summary({ label, points }) {
+  return points.length === 0 ? `${label}: nothing yet` : `${label}: ${short(points.at(-1)[1])} at ${short(points.at(-1)[0])}`;
+}

@@ -1,0 +1,35 @@
+// A page's side of a worker.
+
+/** A worker that answers one message after the other. */
+export class Client {
+  constructor(makeWorker) {
+    this.worker = makeWorker();
+    this.waiting = new Map();
+    this.sent = 0;
+    this.worker.onmessage = ({ data: { id, answer, error } }) => {
+      const { resolve, reject } = this.waiting.get(id);
+      this.waiting.delete(id);
+      if (error === undefined) resolve(answer);
+      else reject(new Error(error));
+    };
+    this.worker.onerror = () => {
+      for (const { reject } of this.waiting.values()) reject(new Error("the browser cannot run the worker of this page"));
+      this.waiting.clear();
+    };
+  }
+
+  /** The answer to a task of worker.js. */
+  ask(task, given) {
+    return new Promise((resolve, reject) => {
+      const id = this.sent++;
+      this.waiting.set(id, { resolve, reject });
+      this.worker.postMessage({ id, task, ...given });
+    });
+  }
+
+  /** Stop; what was asked for and not answered never will be. */
+  close() {
+    this.worker.terminate();
+    this.waiting.clear();
+  }
+}

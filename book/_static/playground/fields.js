@@ -1,0 +1,96 @@
+// Fields that several views show: which algorithms, which seed, which parameters.
+
+import { nthSeed, readSeed, writeSeed } from "./address.js";
+import { ALGORITHMS, checkedParameters, PARAMETERS, PROBABILITIES } from "./algorithms.js";
+import { labelled, make, makeSvg } from "./dom.js";
+
+const TITLES = {
+  standard: "Standard EA",
+  novelty: "Novelty search",
+  safe: "SAFE",
+  fixed: "Fixed weights",
+  random: "Random search",
+};
+
+/** What an algorithm is called. */
+export function titleOf({ name }) {
+  return Object.hasOwn(TITLES, name) ? TITLES[name] : name;
+}
+
+/** The looks of an algorithm's dots and lines, as playground.css knows them. */
+export function kindOf({ name }) {
+  return Object.hasOwn(TITLES, name) ? name : "other";
+}
+
+/** A sample of the line by which charts show an algorithm. */
+export function makeSwatch(algorithm) {
+  const line = makeSvg("polyline", { class: `line ${kindOf(algorithm)}`, points: "0,4 27,4" });
+  return makeSvg("svg", { class: "swatch", viewBox: "0 0 27 8", "aria-hidden": "true" }, line);
+}
+
+/** A fieldset of the algorithms to choose from, kept in step with the store. */
+export function makeAlgorithmChoice(store) {
+  const choice = make("fieldset", { class: "chips" });
+  const show = () => {
+    const chosen = store.state.algorithms;
+    const all = [...Object.values(ALGORITHMS), ...chosen.filter(({ name }) => !Object.hasOwn(ALGORITHMS, name))];
+    const focused = choice.contains(document.activeElement) ? document.activeElement.value : null;
+    choice.replaceChildren(
+      make("legend", {}, "Algorithms"),
+      ...all.map((algorithm) => {
+        const isChosen = chosen.some(({ name }) => name === algorithm.name);
+        const onchange = () => {
+          const rest = isChosen ? chosen.filter(({ name }) => name !== algorithm.name) : [...chosen, algorithm];
+          if (rest.length > 0) store.set({ algorithms: rest, generation: 0 });
+          else show(); // one remains
+        };
+        const box = make("input", { type: "checkbox", value: algorithm.name, checked: isChosen, onchange });
+        return make("label", {}, box, makeSwatch(algorithm), titleOf(algorithm));
+      }),
+    );
+    for (const box of choice.querySelectorAll("input")) if (box.value === focused) box.focus();
+  };
+  store.listen((names) => names.includes("algorithms") && show());
+  show();
+  return choice;
+}
+
+/** Fields of the seed: of a run of an experiment its number, otherwise the seed itself. */
+export function makeSeedFields(store, complain) {
+  const seed = make("input", { type: "text", size: 8, spellcheck: "false", autocomplete: "off" });
+  const run = make("input", { type: "number", min: 0, max: 999999, step: 1 });
+  const runField = labelled("Run", run);
+  const show = () => {
+    const { spawnKey } = store.state.seed;
+    seed.value = writeSeed(store.state.seed);
+    runField.hidden = spawnKey.length === 0;
+    run.value = spawnKey.length > 0 ? String(spawnKey.at(-1)) : "";
+  };
+  const change = (read) => () => complain(() => store.set({ seed: read(), generation: 0 }), show);
+  seed.addEventListener("change", change(() => readSeed(seed.value.trim())));
+  run.addEventListener("change", change(() => nthSeed(store.state.seed, run.valueAsNumber || 0)));
+  store.listen((names) => names.includes("seed") && show());
+  show();
+  return [labelled("Seed", seed), runField];
+}
+
+/** Fields of all parameters, folded away. */
+export function makeParameterFields(store, complain) {
+  const fields = Object.entries(PARAMETERS).map(([name, usual]) => {
+    const step = PROBABILITIES.includes(name) ? 0.05 : ["population", "objectives", "elites"].includes(name) ? 2 : 1;
+    const field = make("input", { type: "number", min: 0, step, name });
+    const show = () => (field.value = store.state.parameters[name] ?? usual);
+    field.addEventListener("change", () =>
+      complain(() => {
+        const { [name]: before, ...others } = store.state.parameters;
+        const parameters = field.valueAsNumber === usual ? others : { ...others, [name]: field.valueAsNumber };
+        checkedParameters(parameters);
+        store.set({ parameters, generation: 0 });
+      }, show),
+    );
+    store.listen((names) => names.includes("parameters") && show());
+    show();
+    return labelled(name.replace("_", " "), field);
+  });
+  return make("details", {}, make("summary", {}, "Parameters"), make("div", { class: "fields" }, ...fields));
+}

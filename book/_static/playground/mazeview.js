@@ -1,0 +1,138 @@
+// A maze on a canvas, and what goes on in it.
+
+import { make } from "./dom.js";
+
+const RADIUS = 0.55; // of a dot, in cells, but at least
+const SMALLEST = 1.6; // so many pixels
+
+/** A picture of a maze. `show` takes what is to be seen, and draws it anew whenever its size or the theme changes. */
+export class MazeView {
+  /** attributes: of the canvas. onpick: called with { row, column } of the cell that is clicked. */
+  constructor(attributes, onpick = null) {
+    this.canvas = make("canvas", { role: "img", ...attributes });
+    this.element = make("div", { class: "maze" }, this.canvas);
+    this.scene = null;
+    this.observer = new ResizeObserver(() => this.draw());
+    this.observer.observe(this.canvas);
+    this.themes = new MutationObserver(() => this.draw());
+    for (const node of [document.documentElement, document.body]) this.themes.observe(node, { attributes: true });
+    if (onpick) this.canvas.addEventListener("click", (event) => onpick(this.cellAt(event)));
+  }
+
+  destroy() {
+    this.observer.disconnect();
+    this.themes.disconnect();
+  }
+
+  /** scene: { maze, archive, ends, colour, trail, paths, robot, rays, links, marked, cursor }, all but maze optional. */
+  show(scene) {
+    this.scene = scene;
+    const { height, width } = scene.maze;
+    this.canvas.style.aspectRatio = `${width} / ${height}`;
+    this.draw();
+  }
+
+  /** The cell under a pointer. */
+  cellAt(event) {
+    const box = this.canvas.getBoundingClientRect(), { height, width } = this.scene.maze;
+    const along = (position, size, cells) => Math.min(Math.max(Math.floor((position / size) * cells), 0), cells - 1);
+    return {
+      row: along(event.clientY - box.top, box.height, height),
+      column: along(event.clientX - box.left, box.width, width),
+    };
+  }
+
+  draw() {
+    if (!this.scene || this.canvas.clientWidth === 0) return;
+    const { maze, archive, ends, colour, trail, paths = [], robot, rays = [], links = [], marked, cursor } = this.scene;
+    const style = getComputedStyle(this.canvas);
+    const colourOf = (name) => style.getPropertyValue(`--${name}`);
+    const pixels = Math.round(this.canvas.clientWidth * devicePixelRatio);
+    const scale = pixels / maze.width;
+    this.canvas.width = pixels;
+    this.canvas.height = Math.round(scale * maze.height);
+    const context = this.canvas.getContext("2d");
+    const dot = Math.max(RADIUS * scale, SMALLEST * devicePixelRatio);
+    const centre = ([row, column]) => [(column + 0.5) * scale, (row + 0.5) * scale];
+    const circle = (cell, radius, filled = true) => {
+      context.beginPath();
+      context.arc(...centre(cell), radius, 0, 2 * Math.PI);
+      if (filled) context.fill();
+      else context.stroke();
+    };
+    const line = (cells, width, dash = []) => {
+      context.lineWidth = width;
+      context.setLineDash(dash);
+      context.beginPath();
+      for (const cell of cells) context.lineTo(...centre(cell));
+      context.stroke();
+      context.setLineDash([]);
+    };
+
+    context.lineJoin = context.lineCap = "round";
+    context.fillStyle = colourOf("open");
+    context.fillRect(0, 0, pixels, this.canvas.height);
+    context.fillStyle = colourOf("wall");
+    maze.walls.forEach((wall, cell) => {
+      if (!wall) return;
+      const column = cell % maze.width, row = Math.floor(cell / maze.width);
+      const left = Math.round(column * scale), top = Math.round(row * scale);
+      context.fillRect(left, top, Math.round((column + 1) * scale) - left, Math.round((row + 1) * scale) - top);
+    });
+    context.fillStyle = colourOf("archive");
+    for (const [cell] of counted(archive ?? [])) circle(cell, 0.8 * dot);
+    context.strokeStyle = colourOf("trail");
+    if (trail) line(trail, dot, [2 * dot, 2 * dot]);
+    for (const { cells, colour: own = "path" } of paths) {
+      context.strokeStyle = colourOf(own);
+      line(cells, dot);
+    }
+    context.fillStyle = colourOf(colour ?? "ends");
+    context.globalAlpha = 0.75;
+    for (const [cell, count] of counted(ends ?? [])) circle(cell, dot * Math.min(0.9 + 0.25 * Math.sqrt(count), 3));
+    context.globalAlpha = 1;
+    context.strokeStyle = colourOf("mark");
+    for (const [from, to] of [...links, ...rays]) line([from, to], dot / 2);
+
+    context.strokeStyle = context.fillStyle = colourOf("start");
+    context.lineWidth = 0.8 * dot;
+    circle(maze.start, 2.6 * dot, false);
+    this.#star(context, centre(maze.goal), 4 * dot, colourOf("goal"), colourOf("open"));
+    if (robot) {
+      context.fillStyle = colourOf("robot");
+      circle(robot, 2 * dot);
+    }
+    context.strokeStyle = colourOf("mark");
+    context.lineWidth = 0.8 * dot;
+    if (marked) circle(marked, 3 * dot, false);
+    if (cursor) {
+      const [x, y] = centre(cursor), half = Math.max(scale / 2, 3 * devicePixelRatio);
+      context.lineWidth = 2 * devicePixelRatio;
+      context.strokeRect(x - half, y - half, 2 * half, 2 * half);
+    }
+  }
+
+  #star(context, [x, y], radius, fill, edge) {
+    context.beginPath();
+    for (let corner = 0; corner < 10; corner++) {
+      const angle = (corner * Math.PI) / 5, reach = corner % 2 ? 0.45 * radius : radius;
+      context.lineTo(x + reach * Math.sin(angle), y - reach * Math.cos(angle));
+    }
+    context.closePath();
+    context.lineWidth = devicePixelRatio;
+    context.strokeStyle = edge;
+    context.fillStyle = fill;
+    context.fill();
+    context.stroke();
+  }
+}
+
+/** Cells, each once, with how often it occurs. */
+function counted(cells) {
+  const counts = new Map();
+  for (const [row, column] of cells) {
+    const key = row * 4096 + column;
+    counts.set(key, (counts.get(key) ?? 0) + 1);
+  }
+  return Array.from(counts, ([key, count]) => [[Math.floor(key / 4096), key % 4096], count]);
+}

@@ -1,0 +1,20 @@
+// What all parts of a playground share: its state, and who wants to know of changes.
+
+/** state: { view, maze, algorithms, seed, parameters, generation, controller, result }. */
+export class Store {
+  constructor(state) {
+    this.state = state;
+    this.listeners = [];
+  }
+
+  /** Call `listener(names of what changed, source)` after every change. */
+  listen(listener) {
+    this.listeners.push(listener);
+  }
+
+  /** Change parts of the state. `source` tells listeners who did: "page", or "outside". */
+  set(changes, source = "page") {
+    Object.assign(this.state, changes);
+    for (const listener of this.listeners) listener(Object.keys(changes), source);
+  }
+}
