@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, fields
 
 try:
@@ -101,18 +101,18 @@ def _read_run(value: object) -> Run | None:
 class Playground(anywidget.AnyWidget):
     """The playground in a notebook. What the user changes in it can be read here, and what is set here is shown there.
 
+    The parameters below are attributes, as is `result`: what came of the last run, a Run, or None before there is one.
+    A result that is set, here or by the page, also sets the controller. `observe` calls a function whenever one of
+    them changes.
+
     Parameters
     ----------
     maze : Maze or str
         The maze, its name, the path of its file, or a drawing of two rows or more; read as a Maze.
-    controller : array of float, shape (16,)
-        The weights p_1..p_16, each in [-1, 1], by which the robot is driven; read as a tuple. All 0 by default.
+    controller : array of float, shape (16,), optional
+        The weights p_1..p_16, each in [-1, 1], of the robot that is driven, all 0 by default; read as a tuple.
     seed : int, sequence of int, or numpy.random.SeedSequence
         Where the randomness of runs starts from; the same as in `safe.evolve`.
-
-    Each of these is an attribute, as is `result`: what came of the last run, a Run, or None before there is one. A
-    result that is set, here or by the page, also sets the controller. `observe` calls a function whenever one of
-    them changes.
 
     Raises
     ------
@@ -146,10 +146,8 @@ class Playground(anywidget.AnyWidget):
     seed = _Shared(0, lambda seed: _read_seed(_seed_text(seed)), _seed_text, _read_seed)
     result = _Shared(None, _check_run, lambda run: run and asdict(run), _read_run)
 
-    def __init__(
-        self, maze: Maze | str = "maze1", controller: Sequence[float] = (0,) * WEIGHTS, seed: Seed = 0
-    ) -> None:
-        super().__init__(maze=maze, controller=controller, seed=seed)
+    def __init__(self, maze: Maze | str = "maze1", controller: np.ndarray | None = None, seed: Seed = 0) -> None:
+        super().__init__(maze=maze, controller=(0,) * WEIGHTS if controller is None else controller, seed=seed)
 
     @traitlets.observe("result")
     def _show_result(self, change: Mapping) -> None:

@@ -1,0 +1,52 @@
+"""The playground as the book carries it: one script of one page, and pictures where its widget stands."""
+
+import json
+
+from safe import bundle
+from tests.book.conftest import execute, output_of
+from tests.browser import chromium, needs_browser
+
+
+def test_its_page_alone_loads_it(checkout):
+    html = checkout / "_build" / "html"
+    for file in ("bundle.js", "playground.css"):
+        loaded_by = [page for page in html.rglob("*.html") if f"_static/playground/{file}" in page.read_text()]
+        assert loaded_by == [html / "book" / "playground.html"]
+    assert (html / "_static" / "playground" / "bundle.js").read_text().startswith(bundle.script())
+
+
+@needs_browser
+def test_it_works_in_a_page_opened_as_a_file(checkout):
+    with chromium() as browser:
+        page = browser.new_page()
+        complaints = []
+        page.on("console", lambda message: message.type == "error" and complaints.append(message.text))
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.goto((checkout / "_build/html/book/playground.html").as_uri() + "#maze=open&seed=1")
+        page.get_by_role("button", name="Play", exact=True).click()
+        page.get_by_role("status").filter(has_text="Success in generation").wait_for()
+        assert complaints == []
+
+
+def test_a_picture_stands_for_the_widget(checkout):
+    copy = json.loads((checkout / "executed" / "playground.ipynb").read_text())
+    shown = [output["data"] for cell in copy["cells"] for output in cell.get("outputs", []) if "data" in output]
+    widgets = [data for data in shown if "application/vnd.jupyter.widget-view+json" in data]
+    assert len(widgets) == 2
+    assert all("image/svg+xml" in data and "application/pdf" in data for data in widgets)
+    assert "widgets" not in copy["metadata"]
+    page = (checkout / "_build" / "html" / "notebooks" / "playground.html").read_text()
+    assert page.count("_images/") == 2
+    assert "jupyter.widget" not in page
+
+
+def test_another_script_makes_no_notebook_stale(checkout):
+    module = checkout / "safe" / "javascript" / "engine.js"
+    before = module.read_bytes()
+    module.write_bytes(before + b"// changed\n")
+    try:
+        again = execute(checkout)
+    finally:
+        module.write_bytes(before)
+    assert again.returncode == 0, output_of(again)
+    assert again.stdout.count("up to date") == len(list((checkout / "notebooks").glob("*.ipynb")))
