@@ -41,6 +41,7 @@ def execute(notebook: Path, parameters: dict[str, object]) -> None:
         cwd=ROOT,
         progress_bar=False,
         stderr_file=sys.stderr if watched else None,
+        store_widget_state=False,  # it would hold all of the playground's scripts
         extra_arguments=["--log-level=CRITICAL"],  # of the kernel: it warns of TCP, and of being shut down
     )
     executed = nbformat.read(unfinished, as_version=4)

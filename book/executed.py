@@ -22,6 +22,10 @@ NOTEBOOKS = ROOT / "notebooks"
 EXECUTED = ROOT / "executed"
 MEASUREMENTS = ROOT / "benchmarks" / "results.json"
 STAMP = "executed_from"  # key in the metadata of an executed copy
+LEFT_OUT = (
+    "text/csv",  # for book/tables.py alone
+    "application/vnd.jupyter.widget-view+json",  # needs a kernel, and scripts from elsewhere; a picture comes with it
+)
 
 
 def notebooks() -> list[Path]:
@@ -38,10 +42,10 @@ def requested_parameters() -> dict[str, int]:
 
 
 def stamp(notebook: Path, parameters: dict[str, object]) -> dict[str, object]:
-    """What an execution of a notebook with these parameters depends on."""
+    """What an execution of a notebook with these parameters depends on: not on what only runs in a browser."""
     package = hashlib.sha256()
     for file in sorted((ROOT / "safe").rglob("*")):
-        if file.is_file() and "__pycache__" not in file.parts:
+        if file.is_file() and not {"__pycache__", "javascript"} & set(file.relative_to(ROOT).parts):
             package.update(f"{file.relative_to(ROOT)}\0".encode() + file.read_bytes())
     return {
         "notebook": hashlib.sha256(notebook.read_bytes()).hexdigest(),
@@ -108,7 +112,8 @@ def _swap_in(app: Sphinx, docname: str, source: list[str]) -> None:
         notebook = json.loads(copy.read_text(encoding="utf-8"))
         for cell in notebook["cells"]:
             for output in cell.get("outputs", []):
-                output.get("data", {}).pop("text/csv", None)  # for book/tables.py alone
+                for kind in LEFT_OUT:
+                    output.get("data", {}).pop(kind, None)
         source[0] = json.dumps(notebook)
 
 

@@ -33,3 +33,11 @@ __all__ = [
     "run_all",
     "verify",
 ]
+
+
+def __getattr__(name: str) -> object:
+    if name == "Playground":  # made when it is asked for, since only then anywidget is needed
+        from safe.playground import Playground
+
+        return Playground
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -198,7 +198,7 @@ def _start(
     maze, algorithm = load_maze(maze), get_algorithm(algorithm)
     if not isinstance(parameters, Parameters):
         raise ValueError(f"parameters must be a Parameters; was {checks.shown(parameters)}")
-    rng = np.random.Generator(np.random.SFC64(_seed_sequence(seed)))
+    rng = np.random.Generator(np.random.SFC64(seed_sequence(seed)))
 
     genomes = np.empty((parameters.population, WEIGHTS))
     draw_genomes(rng, -1.0, 1.0, genomes)
@@ -248,7 +248,7 @@ def _start(
     return state, settings, rng
 
 
-def _seed_sequence(seed: Seed) -> np.random.SeedSequence:
+def seed_sequence(seed: Seed) -> np.random.SeedSequence:
     if isinstance(seed, np.random.SeedSequence):
         return seed
     try:

@@ -1,4 +1,4 @@
-"""Malformed mazes, controllers, parameters and stores, made up by the thousand.
+"""Malformed mazes, controllers, parameters, messages and stores, made up by the thousand.
 
     python -m tests.fuzz 100000        so many cases, and how many of them were accepted and refused
 
@@ -11,6 +11,7 @@ A target is a strategy that makes up cases, and a function that tries one out.
 
 from __future__ import annotations
 
+import json
 import math
 import re
 import sqlite3
@@ -22,7 +23,7 @@ from collections import Counter
 from collections.abc import Callable
 from concurrent.futures import Executor, Future
 from contextlib import closing, suppress
-from dataclasses import replace
+from dataclasses import fields, replace
 from decimal import Decimal
 from fractions import Fraction
 from functools import cache
@@ -38,7 +39,7 @@ from hypothesis.errors import HypothesisWarning
 import safe
 from safe import Maze, notebook
 from safe.algorithms import RATINGS
-from safe.evolution import Generation
+from safe.evolution import Generation, Run
 from safe.maze import MAZE_FOLDER, load_mazes, parse_maze
 from safe.novelty import METRICS
 
@@ -404,6 +405,45 @@ def try_points(text: object) -> None:
     assert points.shape == (len(text.split()), 2)
 
 
+TRAITS = ["maze", "controller", "seed", "result"]
+SAID = st.recursive(  # by a page, and read as JSON
+    st.none()
+    | st.booleans()
+    | st.integers()
+    | st.floats()
+    | st.text()
+    | st.text("0123456789,/x", max_size=9)
+    | st.text("SG.#\n", max_size=9)
+    | st.sampled_from([MAZE.drawing(), [0.5] * 16]),
+    lambda inner: st.lists(inner, max_size=17) | st.dictionaries(st.sampled_from([f.name for f in fields(Run)]), inner),
+    max_leaves=20,
+)
+RUNS = st.fixed_dictionaries(
+    {
+        "success": mostly(st.booleans(), SAID),
+        "generation": mostly(st.integers(0), SAID),
+        "distance": mostly(st.integers(0), SAID),
+        "controller": mostly(st.lists(UNIT, min_size=16, max_size=16), SAID),
+        "coefficients": mostly(st.lists(UNIT, max_size=2), SAID),
+        "evaluations": mostly(st.integers(1), SAID),
+    }
+)
+
+
+def try_playground(case: tuple) -> None:
+    is_from_page, name, value = case
+    with closing(safe.Playground(MAZE)) as playground:
+        if is_from_page:
+            playground.set_state({name: value})
+        else:
+            setattr(playground, name, value)
+        told = json.dumps(playground.get_state(TRAITS), allow_nan=False)
+        playground.set_state(json.loads(told))
+        assert json.dumps(playground.get_state(TRAITS)) == told
+        safe.path(playground.maze, playground.controller, 1)
+        safe.evolve(MAZE, "random", playground.seed, TINY)
+
+
 class Here(Executor):
     """Computes where it is asked: a thread for every case would cost more than the case."""
 
@@ -581,6 +621,16 @@ TARGETS = {
         try_points,
         "points",
         3,
+    ),
+    "playground": Target(
+        st.tuples(st.just(True), st.sampled_from(TRAITS), SAID)
+        | st.tuples(st.just(True), st.just("result"), RUNS)
+        | st.tuples(st.just(False), st.sampled_from(TRAITS), ANYTHING)
+        | st.tuples(st.just(False), st.just("seed"), SEEDS)
+        | st.tuples(st.just(False), st.just("controller"), mostly(hnp.arrays(np.float64, 16, elements=UNIT))),
+        try_playground,
+        FORMAT + "|maze|text|controller|seed|result|generation|distance|coefficients|evaluations",
+        5,
     ),
     "damaged stores": Target(damaged_stores(), try_damaged_store, "store", 3),
     "edited stores": Target(edits(), try_edited_store, "store", 2),
