@@ -97,6 +97,7 @@ class LinkedTables(SphinxPostTransform):
                 if of_row:
                     (paragraph,) = row.children[titles.index(heading)].children
                     paragraph.children = []
+                    paragraph.parent["classes"].append("links")
                     for number, (text, address) in enumerate(of_row):
                         if number:
                             paragraph += nodes.Text(", ")
