@@ -1,6 +1,6 @@
 """Addresses in the playground, the page of the book in which SAFE runs in the browser.
 
-An address is what follows the `#` of the page's address, `key=value&key=value`, and says all that the page shows:
+An address is what follows the `#` of the page's address, `key=value&key=value`, and says all that the page shows::
 
     view         watch a run, or drive a robot by its controller
     maze         the name of one that comes with the package, or else the cells of any: HEIGHTxWIDTH/row,column of the
