@@ -3,7 +3,8 @@
 A cell of a notebook whose metadata holds `table: {name, caption, stub, class}` shows one table, which carries itself
 along as CSV. Here that CSV becomes a table of the document, with as many columns of headings as `stub` says (1), and
 with a class for its looks beside `results`. It can be referred to by its name, and is a table in print as well. Nothing
-in it is read as markup.
+in it is read as markup. Links of its rows to the playground, which `safe.notebook.show_table` lets travel along, are on
+the page alone.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from sphinx.util.typing import ExtensionMetadata
 from executed import EXECUTED, ROOT
 
 TABLES = EXECUTED / "tables"
+PLAYGROUND = "book/playground"
 WIDEST = 30  # characters of a column that count for its width in print
 
 
@@ -42,16 +44,13 @@ class ResultTables(SphinxTransform):
             (output,) = (part for part in cell.children if part.get("nb_element") == "cell_code_output")
             output.children = []
             settings = cell["cell_metadata"]["table"]
-            shown = [
-                o["data"]["text/csv"]
-                for o in executed[cell["cell_index"]]["outputs"]
-                if "text/csv" in o.get("data", {})
-            ]
+            shown = [o for o in executed[cell["cell_index"]]["outputs"] if "text/csv" in o.get("data", {})]
             if len(shown) != 1:
                 raise ExtensionError(f"{copy.name} must show one table as {settings['name']}; showed {len(shown)}")
-            output += self.table("".join(shown[0]), settings)
+            replays = shown[0]["metadata"].get("text/csv", {})
+            output += self.table("".join(shown[0]["data"]["text/csv"]), settings, replays)
 
-    def table(self, text: str, settings: dict) -> list[nodes.Node]:
+    def table(self, text: str, settings: dict, replays: dict) -> list[nodes.Node]:
         name, stub = settings["name"], settings.get("stub", 1)
         header, *rows = csv.reader(text.splitlines())
         group = nodes.tgroup(
@@ -63,6 +62,7 @@ class ResultTables(SphinxTransform):
         )
         table = nodes.table("", nodes.title("", settings["caption"]), group, names=[name])
         table["classes"] = ["results", *settings.get("class", "").split()]
+        table["replays"] = replays  # for LinkedTables
         self.document.note_explicit_target(table)
         TABLES.mkdir(exist_ok=True)
         file = TABLES / f"{name}.csv"
@@ -71,6 +71,37 @@ class ResultTables(SphinxTransform):
             "", nodes.Text("this table as CSV"), reftarget=f"/{file.relative_to(ROOT)}", refdoc=self.env.docname
         )
         return [table, nodes.paragraph("", "", link, classes=["results-download"])]
+
+
+class LinkedTables(SphinxPostTransform):
+    """On the page a table has its links to the playground, in a last column of its own or in the column so headed."""
+
+    default_priority = 700
+    formats = ("html",)
+
+    def run(self, **kwargs: object) -> None:
+        for table in self.document.findall(lambda node: isinstance(node, nodes.table) and node.get("replays")):
+            links, heading = table["replays"]["links"], table["replays"]["heading"]
+            head, *rows = table.findall(nodes.row)
+            titles = [cell.astext() for cell in head.children]
+            if heading not in titles:
+                (group,) = table.findall(nodes.tgroup)
+                group["cols"] += 1
+                group.insert(len(titles), nodes.colspec(colwidth=1, stub=0))
+                head += _cell(heading)
+                for row in rows:
+                    row += _cell("–")
+                titles.append(heading)
+            playground = self.app.builder.get_relative_uri(self.env.docname, PLAYGROUND)
+            for row, of_row in zip(rows, links, strict=True):
+                if of_row:
+                    (paragraph,) = row.children[titles.index(heading)].children
+                    paragraph.children = []
+                    paragraph.parent["classes"].append("links")
+                    for number, (text, address) in enumerate(of_row):
+                        if number:
+                            paragraph += nodes.Text(", ")
+                        paragraph += nodes.reference("", text, refuri=f"{playground}#{address}", internal=True)
 
 
 class PrintedTables(SphinxPostTransform):
@@ -92,10 +123,15 @@ class PrintedTables(SphinxPostTransform):
 
 
 def _row(texts: list[str]) -> nodes.row:
-    return nodes.row("", *(nodes.entry("", nodes.paragraph("", text)) for text in texts))
+    return nodes.row("", *map(_cell, texts))
+
+
+def _cell(text: str) -> nodes.entry:
+    return nodes.entry("", nodes.paragraph("", text))
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:
     app.add_transform(ResultTables)
+    app.add_post_transform(LinkedTables)
     app.add_post_transform(PrintedTables)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

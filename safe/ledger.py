@@ -130,6 +130,16 @@ def stand_out(results: Results) -> list[Experiment]:
     return [experiment for experiment in results if (experiment.maze.name, experiment.algorithm.name) in found]
 
 
+def experiments_behind(table: pd.DataFrame, results: Results, repeats: Results | None = None) -> list[Results]:
+    """For each claim of a ledger the experiments that its evidence names; results and repeats are those of `ledger`."""
+    alone = [{experiment: runs} for experiment, runs in results.items() if is_the_papers(experiment)]
+    named = {_told(parts): parts for parts in [*alone, *_pooled(repeats or {})]}
+    return [
+        {e: runs for text in evidence.split("; ") for e, runs in named.get(text, {}).items()}
+        for evidence in table.evidence
+    ]
+
+
 def readable_ledger(table: pd.DataFrame) -> pd.DataFrame:
     """A ledger to read, a dash for what is not there; differences of rates are in percentage points."""
     words = pd.DataFrame(
@@ -368,31 +378,37 @@ def _untestable() -> Iterator[Entry]:
 
 def _second_look(table: pd.DataFrame, repeats: Results) -> pd.DataFrame:
     """Rows for the numbers that stood out, from further seeds taken together."""
-    pooled: dict[tuple[str, str], list[tuple[Experiment, pd.DataFrame]]] = {}
-    for experiment, runs in repeats.items():
-        pooled.setdefault((experiment.maze.name, experiment.algorithm.name), []).append((experiment, runs))
     rows = {}
-    for (maze, algorithm), parts in pooled.items():
-        together = {parts[0][0]: pd.concat([runs for _, runs in parts], ignore_index=True)}
-        n, seeds = sum(len(runs) for _, runs in parts), [experiment.seed for experiment, _ in parts]
+    for parts in _pooled(repeats):
+        together = {next(iter(parts)): pd.concat(parts.values(), ignore_index=True)}
         for entry in [*_successes(together), *_generations(together)]:
             if table.p_value[entry.claim] < ALPHA:
                 chosen_from = int((table.family == entry.family).sum())
-                again = replace(entry, family=SECOND_LOOK, evidence=_runs_of(maze, algorithm, n, *seeds))
+                again = replace(entry, family=SECOND_LOOK, evidence=_told(parts))
                 rows[f"{entry.claim}, second look"] = vars(again) | {
                     "p_adjusted": min(1.0, entry.p_value * chosen_from)
                 }
     return pd.DataFrame.from_dict(rows, orient="index", columns=table.columns)
 
 
+def _pooled(repeats: Results) -> list[Results]:
+    """Those that differ in their seeds alone, taken together."""
+    pooled: dict[tuple[str, str], dict[Experiment, pd.DataFrame]] = {}
+    for experiment, runs in repeats.items():
+        pooled.setdefault((experiment.maze.name, experiment.algorithm.name), {})[experiment] = runs
+    return list(pooled.values())
+
+
 def _evidence(results: Results) -> dict[tuple[str, str], str]:
     """What stands behind a number of an experiment, by the names of maze and algorithm."""
-    names = {experiment: (experiment.maze.name, experiment.algorithm.name) for experiment in results}
-    return {names[e]: _runs_of(*names[e], len(runs), e.seed) for e, runs in results.items()}
+    return {(e.maze.name, e.algorithm.name): _told({e: runs}) for e, runs in results.items()}
 
 
-def _runs_of(maze: str, algorithm: str, runs: int, *seeds: int) -> str:
-    return f"{algorithm} on {maze}: {runs} runs, seed {', '.join(map(str, seeds))}"
+def _told(parts: Results) -> str:
+    """Experiments that differ in their seeds alone, as evidence."""
+    first = next(iter(parts))
+    runs, seeds = sum(map(len, parts.values())), ", ".join(str(experiment.seed) for experiment in parts)
+    return f"{first.algorithm.name} on {first.maze.name}: {runs} runs, seed {seeds}"
 
 
 def _capital(text: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 
 import numpy as np
@@ -11,6 +12,10 @@ from IPython import get_ipython
 from IPython.display import display
 
 from safe import checks, figures
+from safe.address import run_address
+from safe.experiment import Experiment
+
+Link = tuple[str, str]  # its text, and an address in the playground
 
 
 def prepare() -> None:
@@ -24,6 +29,72 @@ def prepare() -> None:
     if shell is not None:
         formatter = shell.display_formatter.mimebundle_formatter
         formatter.for_type(pd.DataFrame, lambda table, **_: {"text/csv": table.to_csv()})
+
+
+def show_table(table: pd.DataFrame, links: Sequence[Sequence[Link]], heading: str = "replay") -> None:
+    """Show a table whose rows have links to the playground, which stand in the book and nowhere else.
+
+    Parameters
+    ----------
+    table : DataFrame
+        As it is shown in Jupyter, in print, and for download.
+    links : sequence of sequences of (text, address), one for each row
+        The links of each row. They travel beside the CSV, as metadata of the output.
+    heading : str
+        Over the column that the links are in. Where the table has such a column, its texts become the links.
+
+    Raises
+    ------
+    ValueError
+        Where there are not as many rows of links as the table has.
+    """
+    if len(links) != len(table):
+        raise ValueError(f"links must be as many as the {len(table)} rows of the table; was {len(links)}")
+    display(
+        table, metadata={"text/csv": {"links": [[list(link) for link in row] for row in links], "heading": heading}}
+    )
+
+
+def replays(results: Mapping[Experiment, pd.DataFrame]) -> list[Link]:
+    """A link to one run of each experiment: the first that succeeded, or the first of all where none did.
+
+    The text of a link is the number of the run, and whatever experiments differ in: maze, algorithm, seed.
+
+    Parameters
+    ----------
+    results : mapping of Experiment to DataFrame
+        The runs of each experiment, as `safe.run` gives them.
+
+    Examples
+    --------
+    >>> from safe import run_all
+    >>> results = run_all(["novelty", "random"], ["maze1"], runs=2, seed=0)
+    >>> [text for text, address in replays(results)]
+    ['novelty: run 1', 'random: run 0']
+    """
+    labels = [(e.maze.name, e.algorithm.name, f"seed {e.seed}") for e in results]
+    differing = [len(set(of_all)) > 1 for of_all in zip(*labels, strict=True)]
+    links = []
+    for (experiment, runs), label in zip(results.items(), labels, strict=True):
+        number = int(runs.run[runs.success.idxmax()])
+        which = ", ".join(part for part, differs in zip(label, differing, strict=True) if differs)
+        links.append((f"{which}: run {number}" if which else f"run {number}", run_address(experiment, number)))
+    return links
+
+
+def replays_of_rows(table: pd.DataFrame, results: Mapping[Experiment, pd.DataFrame]) -> list[list[Link]]:
+    """For each row of a table the links (see `replays`) to the experiments that it tells of.
+
+    A row tells of a maze, which it names in its index, as `maze`, and of the algorithms that it names there, as
+    `algorithm`, or as `first` and `second`; where it names none, of all of them.
+    """
+    found = []
+    for _, row in table.index.to_frame().iterrows():
+        named = row.reindex(["algorithm", "first", "second"]).dropna().tolist()
+        of_maze = {e: runs for e, runs in results.items() if e.maze.name == row.maze}
+        algorithms = named or dict.fromkeys(e.algorithm.name for e in of_maze)
+        found.append(replays({e: of_maze[e] for name in algorithms for e in of_maze if e.algorithm.name == name}))
+    return found
 
 
 def hand_on(table: pd.DataFrame) -> None:

@@ -157,3 +157,28 @@ def test_other_mazes_and_parameters_bear_on_no_claim():
         safe.Experiment("safe", "maze2", parameters=safe.Parameters(k=3)): ended,
     }
     assert set(ledger.ledger(others).verdict) == {ledger.UNTESTABLE}
+
+
+def test_behind_a_claim_are_the_experiments_that_its_evidence_names(results, repeats):
+    table = ledger.ledger(results, repeats)
+    behind = dict(zip(table.index, ledger.experiments_behind(table, results, repeats), strict=True))
+
+    def names(claim):
+        assert all(runs is (results | repeats)[experiment] for experiment, runs in behind[claim].items())
+        return [(e.maze.name, e.algorithm.name, e.seed) for e in behind[claim]]
+
+    assert names("maze1 safe successes") == names("maze1 p3") == [("maze1", "safe", 0)]
+    assert names("maze1 novelty > maze1 random") == [("maze1", "novelty", 0), ("maze1", "random", 0)]
+    assert names("maze2 deceived") == [("maze2", "standard", 0)]
+    second = names("maze1 fixed successes, second look")
+    assert second == [("maze1", "fixed", seed) for seed in (1, 2, 3, 4)]
+    untestable = table.family == ledger.UNTESTABLE
+    assert all(bool(behind[claim]) != untestable[claim] for claim in table.index)
+
+
+def test_behind_no_claim_is_an_experiment_that_only_bears_the_name_of_one_of_the_papers(results):
+    own = safe.Experiment("safe", safe.Maze.from_drawing("S.G", "maze1"))
+    of_paper = next(e for e in results if (e.maze.name, e.algorithm.name) == ("maze1", "safe"))
+    table = ledger.ledger(results)
+    behind = ledger.experiments_behind(table, results | {own: results[of_paper]})
+    assert all(own not in experiments for experiments in behind)

@@ -22,9 +22,10 @@ def execute(folder, *arguments, **options):
     return call(folder, sys.executable, "book/execute.py", *arguments, **options)
 
 
-def build(folder, **options):
+def build(folder, *arguments, **options):
     command = Path(sys.executable).with_name("jupyter-book")
-    return call(folder, command, "build", ".", "--toc", "book/_toc.yml", "-W", "--keep-going", "-n", **options)
+    settings = "--toc", "book/_toc.yml", "-W", "--keep-going", "-n"
+    return call(folder, command, "build", ".", *settings, *arguments, **options)
 
 
 def output_of(process):

@@ -65,7 +65,8 @@ class Tables(HTMLParser):
             self.found[-1]["rows"].append([])
         elif tag in ("th", "td"):
             self.found[-1]["rows"][-1].append("")
-        self.inside = tag if tag in ("caption", "th", "td") else None if tag == "a" else self.inside
+        is_mark = tag == "a" and self.inside == "caption"
+        self.inside = tag if tag in ("caption", "th", "td") else None if is_mark else self.inside
 
     def handle_endtag(self, tag):
         self.inside = None if tag in ("caption", "th", "td") else self.inside
@@ -91,7 +92,8 @@ def test_every_table_that_was_computed_is_shown_with_number_and_caption_and_can_
             table = shown[settings["name"]]
             number, caption = re.fullmatch(r"Table ([0-9.]+) (.*)", table["caption"]).groups()
             assert caption.replace("’", "'") == settings["caption"], number
-            assert [[cell.strip() for cell in row] for row in table["rows"]] == expected, settings["name"]
+            columns = len(expected[0])  # links may stand in one more (see test_links.py)
+            assert [[cell.strip() for cell in row[:columns]] for row in table["rows"]] == expected, settings["name"]
             (link,) = re.findall(rf'href="../(_downloads/[^"]*/{settings["name"]}.csv)"', page)
             assert list(csv.reader((html / link).read_text().splitlines())) == expected
             count += 1

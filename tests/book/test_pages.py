@@ -87,5 +87,6 @@ def test_every_link_within_the_book_leads_somewhere(checkout, names):
                 name if not address.path else str(Path(urljoin("/" + name, unquote(address.path))).relative_to("/"))
             )
             assert (html / target).exists(), f"{name}: {link}"
-            if address.fragment and target in anchors:
+            says_what_to_show = target == "book/playground.html" and "=" in address.fragment
+            if address.fragment and target in anchors and not says_what_to_show:
                 assert address.fragment in anchors[target], f"{name}: {link}"

@@ -94,3 +94,8 @@ export function makeParameterFields(store, complain) {
   });
   return make("details", {}, make("summary", {}, "Parameters"), make("div", { class: "fields" }, ...fields));
 }
+
+/** A number to three digits, or as it is where it is whole. */
+export function number3(value) {
+  return Number.isInteger(value) ? `${value}` : `${Number(value.toPrecision(3))}`;
+}

@@ -1,26 +1,28 @@
 // One algorithm at work: its maze, and how far it has come.
 
 import { Client } from "./client.js";
-import { make } from "./dom.js";
+import { make, makeButton } from "./dom.js";
 import { cellsText } from "./drive.js";
-import { kindOf, makeSwatch, titleOf } from "./fields.js";
+import { kindOf, makeSwatch, number3, titleOf } from "./fields.js";
 import { MazeView } from "./mazeview.js";
 
 export class Panel {
-  /** onpick: called with the number of a solution that is clicked. */
-  constructor(algorithm, makeWorker, onpick) {
+  /** onpick: called with the number of a solution that is clicked; ondrive: with the best controller, to be driven. */
+  constructor(algorithm, makeWorker, { onpick, ondrive }) {
     this.algorithm = algorithm;
     this.client = new Client(makeWorker);
     this.history = []; // of each generation what worker.js tells
     this.now = null; // the last generation, as worker.js tells it
     this.view = new MazeView({}, (cell) => this.now && onpick(this.#nearest(cell)));
     this.status = make("p", { class: "status" });
+    const drive = makeButton("Drive the best", () => this.now && ondrive(this.now.result.controller));
     this.element = make(
       "section",
       { class: "panel", "aria-label": titleOf(algorithm) },
       make("h3", {}, makeSwatch(algorithm), titleOf(algorithm)),
       this.view.element,
       this.status,
+      drive,
     );
   }
 
@@ -50,9 +52,11 @@ export class Panel {
     const { maze, now } = this;
     const { result } = now;
     const best = `best ${cellsText(result.distance)} from the goal`;
+    const [a, b] = result.coefficients;
+    const judged = a === undefined ? "" : ` Judged by a = ${number3(a)}, b = ${number3(b)}.`;
     const end = result.success ? "Success" : "No success";
     this.status.textContent = now.isOver
-      ? `${end} in generation ${result.generation}: ${best}, after ${result.evaluations} robots.`
+      ? `${end} in generation ${result.generation}: ${best}, after ${result.evaluations} robots.${judged}`
       : `Generation ${result.generation}: ${best}.`;
     this.element.classList.toggle("success", result.success);
     this.view.canvas.setAttribute(

@@ -1,9 +1,10 @@
 // Watch: algorithms at work on one maze, side by side, generation by generation.
 
+import { PARAMETERS } from "./algorithms.js";
 import { LineChart, ObjectiveSquare } from "./chart.js";
 import { labelled, make, makeButton, makeSelect, prefersLessMotion } from "./dom.js";
 import { cellsText } from "./drive.js";
-import { kindOf, makeAlgorithmChoice, makeParameterFields, makeSeedFields, titleOf } from "./fields.js";
+import { kindOf, makeAlgorithmChoice, makeParameterFields, makeSeedFields, number3, titleOf } from "./fields.js";
 import { Panel } from "./panel.js";
 
 const SPEEDS = [1, 2, 5, 10, 30, 100, Infinity]; // generations a second
@@ -119,7 +120,11 @@ export class WatchView {
     this.play.textContent = "Play";
     this.looked = null;
     const { turn } = this;
-    this.panels = algorithms.map((algorithm, i) => new Panel(algorithm, this.makeWorker, (individual) => this.#look(i, individual)));
+    const ondrive = (controller) => this.store.set({ controller, view: "drive" });
+    this.panels = algorithms.map(
+      (algorithm, i) =>
+        new Panel(algorithm, this.makeWorker, { onpick: (individual) => this.#look(i, individual), ondrive }),
+    );
     this.row.replaceChildren(...this.panels.map(({ element }) => element));
     this.row.setAttribute("aria-busy", "true");
     this.ready = Promise.all(this.panels.map((panel) => panel.start(maze, seed, parameters, generation)));
@@ -256,7 +261,7 @@ export class WatchView {
       lines.push(
         `Novelty ${number3(novelty)}: the distances to its ${neighbours.length} nearest neighbours, ${own} of its own ` +
           `generation and ${neighbours.length - own} of the archive, add up to ${all.reduce((a, b) => a + b, 0)} ` +
-          `(${all.join(" + ")}), over k = ${this.store.state.parameters.k ?? "15"}.`,
+          `(${all.join(" + ")}), over k = ${this.store.state.parameters.k ?? PARAMETERS.k}.`,
       );
     }
     const parts = [];
@@ -299,9 +304,4 @@ function makeLegend() {
     { class: "legend" },
     ...entries.map(([kind, text]) => make("li", {}, make("span", { class: `key ${kind}`, "aria-hidden": "true" }), text)),
   );
-}
-
-/** A number to three digits, or as it is where it is whole. */
-function number3(value) {
-  return Number.isInteger(value) ? `${value}` : `${Number(value.toPrecision(3))}`;
 }

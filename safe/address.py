@@ -1,0 +1,110 @@
+"""Addresses in the playground, the page of the book in which SAFE runs in the browser.
+
+An address is what follows the `#` of the page's address, `key=value&key=value`, and says all that the page shows::
+
+    view         watch a run, or drive a robot by its controller
+    maze         the name of one that comes with the package, or else the cells of any: HEIGHTxWIDTH/row,column of the
+                 start/row,column of the goal/walls, where the walls are bits, row by row, in base64url without padding
+    algorithm    its name in `safe.ALGORITHMS`, or else name:rating:objectives, where the rating is `none` or
+                 `genotypic`, and the objectives are `drawn`, or the weights a,b,a,b,... of each (none: random search)
+    seed         entropy/spawn key of the run's SeedSequence: the digest of its experiment, and its number
+    controller   the sixteen weights, with commas
+    ...          any of `safe.Parameters` by its name, where it departs from the paper's
+
+Numbers are written such that they are read as the very same, and so a run that is opened there is the very same run.
+"""
+
+from __future__ import annotations
+
+import base64
+from dataclasses import asdict
+from urllib.parse import quote
+
+import numpy as np
+
+from safe import checks
+from safe.algorithms import ALGORITHMS, Algorithm, Parameters
+from safe.experiment import Experiment
+from safe.maze import Maze, load_maze, maze_names
+from safe.robot import WEIGHTS
+
+READABLE = "!~*'(),:/"  # as encodeURIComponent leaves them, and what our values are made of
+_RATINGS = {"none": "none", "genotypic novelty": "genotypic"}
+
+
+def run_address(experiment: Experiment, run: int) -> str:
+    """Where the playground shows one run of an experiment.
+
+    Raises
+    ------
+    ValueError
+        Where the run is not an integer of at least 0.
+
+    Examples
+    --------
+    >>> run_address(Experiment("safe", "maze1", seed=3), 7)[:50]
+    'view=watch&maze=maze1&algorithm=safe&seed=0xc59dd4'
+    >>> run_address(Experiment("safe", "maze1", parameters=Parameters(population=50, mutation=0.1)), 7)[-29:]
+    '/7&population=50&mutation=0.1'
+    """
+    run = checks.integer("run", run, 0)
+    paper = asdict(Parameters())
+    return _address(
+        view="watch",
+        maze=_maze(experiment.maze),
+        algorithm=_algorithm(experiment.algorithm),
+        seed=f"0x{experiment.digest}/{run}",
+        **{name: repr(v) for name, v in asdict(experiment.parameters).items() if v != paper[name]},
+    )
+
+
+def drive_address(maze: Maze | str, controller: np.ndarray | None = None) -> str:
+    """Where the playground lets one drive a robot in a maze, by a controller where one is given.
+
+    Parameters
+    ----------
+    maze : Maze or str
+        The maze, or its name.
+    controller : array of float, shape (16,), optional
+        The weights p_1..p_16, each in [-1, 1], to begin with.
+
+    Raises
+    ------
+    ValueError
+        Where the controller has the wrong length, is not finite or not in [-1, 1].
+
+    Examples
+    --------
+    >>> drive_address("maze2")
+    'view=drive&maze=maze2'
+    >>> drive_address(Maze.from_drawing("S..\\n.#.\\n..G"), [0.5] + [0] * 15)
+    'view=drive&maze=3x3/0,0/2,2/CAA&controller=0.5,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0'
+    """
+    values = {"view": "drive", "maze": _maze(load_maze(maze))}
+    if controller is not None:
+        values["controller"] = _numbers(checks.array("controller", controller, (WEIGHTS,), -1, 1))
+    return _address(**values)
+
+
+def _address(**values: str) -> str:
+    return "&".join(f"{key}={quote(value, safe=READABLE)}" for key, value in values.items())
+
+
+def _maze(maze: Maze) -> str:
+    if maze.name in maze_names() and maze == load_maze(maze.name):
+        return maze.name
+    (height, width), start, goal = maze.shape, maze.start, maze.goal
+    bits = base64.urlsafe_b64encode(np.packbits(maze.walls).tobytes()).decode().rstrip("=")
+    return f"{height}x{width}/{start[0]},{start[1]}/{goal[0]},{goal[1]}/{bits}"
+
+
+def _algorithm(algorithm: Algorithm) -> str:
+    if algorithm == ALGORITHMS.get(algorithm.name):
+        return algorithm.name
+    objectives = "drawn" if algorithm.objectives is None else _numbers(np.ravel(algorithm.objectives))
+    name = algorithm.name.replace(":", " ")  # which parts what follows
+    return f"{name}:{_RATINGS[algorithm.rating]}:{objectives}"
+
+
+def _numbers(values: np.ndarray) -> str:
+    return ",".join(map(repr, values.tolist()))

@@ -1,0 +1,170 @@
+"""Rows that tell of runs lead to them: their links in the built book, and the runs that these say."""
+
+import csv
+import html
+import json
+import re
+import sqlite3
+from urllib.parse import urljoin
+
+import pytest
+
+from tests.book.conftest import RUNS, build, output_of
+from tests.test_address import run_at, values_of
+
+TELL_OF_RUNS = {
+    "tab-coefficients",
+    "tab-deception",
+    "tab-evolved",
+    "tab-fixed",
+    "tab-fixed-generations",
+    "tab-generations",
+    "tab-ledger-comparisons",
+    "tab-ledger-evolved",
+    "tab-ledger-generations",
+    "tab-ledger-second-look",
+    "tab-ledger-successes",
+    "tab-power",
+    "tab-replay",
+    "tab-runs",
+    "tab-success",
+    "tab-times",
+    "tab-unevolved",
+    "tab-unevolved-coefficients",
+}
+TELL_OF_ROBOTS = {"tab-mazes", "tab-mean-controller"}
+TELL_OF_NEITHER = {
+    "tab-budget",
+    "tab-cost",
+    "tab-first-use",
+    "tab-ledger-untestable",
+    "tab-machine",
+    "tab-missed",
+    "tab-novelty",
+    "tab-parameters",
+    "tab-parts",
+    "tab-peers",
+    "tab-sensors",
+    "tab-verdicts",
+}
+WATCH = r"view=watch&maze=\w+&algorithm=[\w:]+&seed=0x[0-9a-f]{64}/\d+"
+DRIVE = r"view=drive&maze=\w+(&controller=-?[\d.e-]+(,-?[\d.e-]+){15})?"
+
+
+@pytest.fixture(scope="module")
+def linked(checkout):
+    """The rows of all tables of results: the texts of their cells by heading, and their links (text, address)."""
+    found = {}
+    for page in (checkout / "_build" / "html" / "notebooks").glob("*.html"):
+        for table in re.findall(r'<table class="results.*?</table>', page.read_text(), re.DOTALL):
+            head, *rows = re.findall(r"<tr.*?</tr>", table, re.DOTALL)
+            headings = texts_of(head)
+            found[re.search(r'id="(.*?)"', table).group(1)] = [
+                (dict(zip(headings, texts_of(row), strict=True)), links_of(row)) for row in rows
+            ]
+    return found
+
+
+def texts_of(row):
+    cells = re.findall(r"<t[hd].*?</t[hd]>", row, re.DOTALL)
+    return [html.unescape(re.sub(r"<.*?>", "", cell)).strip() for cell in cells]
+
+
+def links_of(row):
+    return [(text, html.unescape(link)) for link, text in re.findall(r'<a [^>]*href="(.*?)"[^>]*>(.*?)</a>', row)]
+
+
+def addresses_of(links):
+    return [link.split("#", 1)[1] for _, link in links]
+
+
+def test_it_is_known_of_every_table_whether_it_tells_of_runs(linked):
+    assert set(linked) == TELL_OF_RUNS | TELL_OF_ROBOTS | TELL_OF_NEITHER
+
+
+@pytest.mark.parametrize("name", sorted(TELL_OF_RUNS | TELL_OF_ROBOTS))
+def test_every_row_that_tells_of_runs_or_robots_leads_to_them(checkout, linked, name):
+    assert linked[name] or name == "tab-ledger-second-look"  # in a few runs nothing stands out
+    for row, links in linked[name]:
+        says_none = row.get("successful runs") == "–" or row.get("rates") == "in the paper"
+        assert bool(links) != says_none, row
+        for text, link in links:
+            page, address = link.split("#", 1)
+            assert (checkout / "_build" / "html" / urljoin("notebooks/", page)).exists(), link
+            assert re.fullmatch(DRIVE if text.startswith("drive") else WATCH, address), link
+            values = values_of(address)
+            if not text.startswith("drive"):
+                assert re.findall(r"\d+", text)[-1] == values["seed"].split("/")[1]
+            for key in ("maze", "algorithm"):
+                if key in row and key in values:
+                    assert values[key].split(":")[0] == row[key], link
+
+
+def test_rows_of_others_have_no_links(linked):
+    for name in TELL_OF_NEITHER:
+        assert [links for _, links in linked[name] if links] == [], name
+
+
+def test_a_row_of_two_algorithms_leads_to_both(linked):
+    for row, links in linked["tab-times"]:
+        assert [values_of(address)["algorithm"] for address in addresses_of(links)] == [row["first"], row["second"]]
+    for _, links in linked["tab-unevolved"]:
+        algorithms = [values_of(address)["algorithm"] for address in addresses_of(links)]
+        assert algorithms == ["safe", "unevolved:none:drawn"]
+    for row, links in linked["tab-ledger-comparisons"]:
+        of_experiments = row["experiments"].split("; ")
+        told = [values_of(address) for address in addresses_of(links)]
+        assert [experiment.split(":")[0] for experiment in of_experiments] == [
+            f"{values['algorithm']} on {values['maze']}" for values in told
+        ]
+
+
+def test_the_run_that_a_link_says_is_the_one_in_the_results(checkout, linked):
+    rows = [row for name in sorted(TELL_OF_RUNS) for row in linked[name]]
+    every = sorted(
+        {address for _, links in rows for address in addresses_of(links) if address.startswith("view=watch")}
+    )
+    assert len(every) >= 10
+    with sqlite3.connect(checkout / "results.sqlite") as results:
+        for address in every:
+            entropy, number = values_of(address)["seed"].split("/")
+            (found,) = results.execute(
+                "SELECT success, generation, distance, runs.controller, evaluations FROM runs JOIN experiments"
+                " ON runs.experiment = experiments.id WHERE digest = ? AND run = ?",
+                (entropy.removeprefix("0x"), int(number)),
+            ).fetchall()
+            made = run_at(address)
+            success, generation, distance, controller, evaluations = found
+            assert (made.success, made.generation, made.distance) == (bool(success), generation, distance), address
+            assert list(made.controller) == json.loads(controller)
+            assert made.evaluations == evaluations
+
+
+def test_a_row_leads_to_the_first_run_that_succeeded_or_else_to_run_0(checkout, linked):
+    for row, links in linked["tab-success"]:
+        ((text, link),) = links
+        with sqlite3.connect(checkout / "results.sqlite") as results:
+            ((first,),) = results.execute(
+                "SELECT min(run) FROM runs JOIN experiments ON runs.experiment = experiments.id"
+                " WHERE digest = ? AND success AND run < ?",
+                (values_of(link.split("#", 1)[1])["seed"][2:66], int(RUNS)),
+            )
+        assert (first is None) == row["successes"].startswith("0 of")
+        assert text == f"run {first or 0}"
+
+
+def test_what_is_downloaded_has_no_links(checkout, linked):
+    for name, rows in linked.items():
+        header = next(csv.reader((checkout / "executed" / "tables" / f"{name}.csv").read_text().splitlines()))
+        assert not {"replay", "playground"} & set(header)
+        for row, _ in rows:
+            assert [title for title in row if title not in ("replay", "playground")] == [*dict.fromkeys(header)], name
+
+
+def test_in_print_there_are_no_links_to_the_playground(checkout):
+    built = build(checkout, "--builder", "latex")
+    assert built.returncode == 0, output_of(built)
+    text = (checkout / "_build" / "latex" / "safe.tex").read_text()
+    assert "tab-success" in text
+    assert "playground.html" not in text
+    assert "drive in maze1" not in text
