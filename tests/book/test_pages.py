@@ -39,7 +39,8 @@ def test_every_page_without_an_error_a_request_elsewhere_or_a_scroll_bar(site, b
     complaints = []
     page.on("console", lambda message: message.type == "error" and complaints.append(message.text))
     page.on("pageerror", lambda error: complaints.append(str(error)))
-    page.on("request", lambda request: request.url.startswith((site, "data:")) or complaints.append(request.url))
+    here = (site, f"blob:{site}", "data:")
+    page.on("request", lambda request: request.url.startswith(here) or complaints.append(request.url))
     page.on(
         "response", lambda response: response.status < 400 or complaints.append(f"{response.status} {response.url}")
     )

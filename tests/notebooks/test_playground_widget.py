@@ -99,6 +99,7 @@ class Notebook:
 CELLS = {
     "show": "import safe\nplayground = safe.Playground(seed=4)\nplayground",
     "again": "playground",
+    "another": "safe.Playground('maze2')",
     "weights": "print(playground.controller[:2])",
     "weigh": "playground.controller = [0.25] * 16",
     "maze": "print(playground.maze.name, playground.maze.shape)",
@@ -121,12 +122,14 @@ def test_page_and_kernel_change_the_same(tmp_path):
         complaints = []
         page.on("console", lambda message: message.type == "error" and complaints.append(message.text))
         page.on("pageerror", lambda error: complaints.append(str(error)))
-        here = (address, address.replace("http", "ws"), "data:", "blob:")
+        here = (address, address.replace("http", "ws"), "data:", f"blob:{address}")
         page.on("request", lambda request: request.url.startswith(here) or complaints.append(request.url))
         notebook = Notebook(page, tmp_path, address, CELLS)
         notebook.run("show")
         notebook.run("again")
-        view, other = (notebook.cell(name).locator(".safe-playground") for name in ("show", "again"))
+        view, other, another = (
+            notebook.cell(name).locator(".safe-playground") for name in ("show", "again", "another")
+        )
         for shown in (view, other):
             shown.get_by_role("tab", name="Drive").click()
 
@@ -151,8 +154,11 @@ def test_page_and_kernel_change_the_same(tmp_path):
         field("combobox", "Maze").select_option("trap")
         notebook.run_until("maze", "drawing (41, 41)")
         wait_for("trap", "combobox", "Maze", other)
+        notebook.run("another")
+        wait_for("maze2", "combobox", "Maze", another)
         notebook.run("draw")
         wait_for("drawn", "combobox", "Maze")
+        wait_for("maze2", "combobox", "Maze", another)
 
         # a run
         view.get_by_role("tab", name="Watch").click()
