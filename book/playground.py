@@ -14,8 +14,6 @@ SCRIPT = "playground/bundle.js"  # in _static, as is the stylesheet
 STYLE = "playground/playground.css"
 _START = """
 (() => {
-  // in its links to other states of this page the theme would look for names of parts of it
-  document.body.removeAttribute("data-bs-spy");
   const { mount, makeWorker } = playground();
   mount(document.getElementById("playground"), { makeWorker, address: window });
 })();

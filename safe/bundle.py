@@ -28,9 +28,10 @@ function playground() {{
 "use strict";
 
 {modules}
+let address;
 function makeWorker() {{
-  const text = `(${{playground}})().serve(self)`;
-  return new Worker(URL.createObjectURL(new Blob([text], {{ type: "text/javascript" }})));
+  address ??= URL.createObjectURL(new Blob([`(${{playground}})().serve(self)`], {{ type: "text/javascript" }}));
+  return new Worker(address);
 }}
 
 return {{ {exports}, makeWorker }};

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, fields
 
 try:
@@ -16,14 +15,10 @@ from IPython.core.pylabtools import print_figure
 from matplotlib import pyplot as plt
 
 from safe import bundle, checks, figures
-from safe.evolution import Generation, Run, Seed, seed_sequence
-from safe.maze import Maze, load_maze, parse_maze
+from safe.address import read_seed, seed_text
+from safe.evolution import Generation, Run, Seed
+from safe.maze import Maze, load_maze, maze_names, parse_maze
 from safe.robot import WEIGHTS, path
-
-_NUMBER = r"(?:0x[0-9a-fA-F]{1,64}|[0-9]{1,80})"
-_SEED = re.compile(rf"({_NUMBER}(?:,{_NUMBER})*)(?:/({_NUMBER}(?:,{_NUMBER})*))?")
-_LARGEST = 2**256 - 1  # number in a seed; the digest of an experiment has as many bits
-_POOL_SIZE = np.random.SeedSequence(0).pool_size  # the only one that the page knows
 
 
 class _Shared(traitlets.TraitType):
@@ -46,34 +41,14 @@ def _check_maze(value: object) -> Maze:
     return parse_maze(value, name="drawing") if is_text else load_maze(value)
 
 
+def _read_maze(drawing: object) -> Maze:
+    """The maze of a drawing, by its name where it is one that comes with the package."""
+    maze = Maze.from_drawing(drawing)
+    return next((named for named in map(load_maze, maze_names()) if named == maze), maze)
+
+
 def _check_controller(value: object) -> tuple[float, ...]:
     return tuple(checks.array("controller", value, (WEIGHTS,), -1, 1).tolist())
-
-
-def _seed_text(seed: Seed) -> str:
-    """A seed as the address of the playground gives it: 7, or 1,2,3, or 7/17 where 17 is the spawn key."""
-    sequence = seed_sequence(seed)
-    if sequence.pool_size != _POOL_SIZE:
-        raise ValueError(f"seed must have a pool_size of {_POOL_SIZE}; was {sequence.pool_size}")
-    entropy = sequence.entropy if isinstance(sequence.entropy, Iterable) else [sequence.entropy]
-    parts = ([checks.integer("seed", word, 0, _LARGEST) for word in words] for words in (entropy, sequence.spawn_key))
-    return "/".join(",".join(str(word) if word < 2**64 else hex(word) for word in words) for words in parts if words)
-
-
-def _read_seed(text: object) -> Seed:
-    """What `_seed_text` wrote: an int or a tuple of them; a SeedSequence where there is a spawn key."""
-    found = _SEED.fullmatch(text) if isinstance(text, str) else None
-    if not found:
-        raise ValueError(
-            f"seed must be 7 or 1,2,3, or either followed by a spawn key as in 7/17; was {checks.shown(text)}"
-        )
-    entropy, key = (_read_numbers(part) for part in found.groups(default=""))
-    entropy = entropy if len(entropy) > 1 else entropy[0]
-    return np.random.SeedSequence(entropy, spawn_key=key) if key else entropy
-
-
-def _read_numbers(text: str) -> tuple[int, ...]:
-    return tuple(int(word, 16 if word.startswith("0x") else 10) for word in text.split(",") if word)
 
 
 def _check_run(value: object) -> Run | None:
@@ -141,9 +116,9 @@ class Playground(anywidget.AnyWidget):
     )
     _css = (bundle.FOLDER / "playground.css").read_text(encoding="utf-8")
 
-    maze = _Shared("maze1", _check_maze, Maze.drawing, Maze.from_drawing)
+    maze = _Shared("maze1", _check_maze, Maze.drawing, _read_maze)
     controller = _Shared((0,) * WEIGHTS, _check_controller, list, _check_controller)
-    seed = _Shared(0, lambda seed: _read_seed(_seed_text(seed)), _seed_text, _read_seed)
+    seed = _Shared(0, lambda seed: read_seed(seed_text(seed)), seed_text, read_seed)
     result = _Shared(None, _check_run, lambda run: run and asdict(run), _read_run)
 
     def __init__(self, maze: Maze | str = "maze1", controller: np.ndarray | None = None, seed: Seed = 0) -> None:

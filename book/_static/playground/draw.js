@@ -69,9 +69,9 @@ export class DrawView {
       make(
         "div",
         {},
-        make("h3", {}, "This maze"),
+        make("h2", {}, "This maze"),
         this.checks,
-        make("h3", {}, "A new one"),
+        make("h2", {}, "A new one"),
         make(
           "div",
           { class: "controls" },
@@ -79,7 +79,7 @@ export class DrawView {
           labelled("Columns", columns),
           makeButton("Empty maze", () => this.complain(() => this.#empty(rows.valueAsNumber, columns.valueAsNumber))),
         ),
-        make("h3", {}, "Take along"),
+        make("h2", {}, "Take along"),
         make(
           "div",
           { class: "controls" },
@@ -87,7 +87,7 @@ export class DrawView {
           makeButton("Save as maze file", () => this.#save("maze", listOf)),
           makeButton("Show as drawing below", () => (this.text.value = drawingOf(this.draft))),
         ),
-        make("h3", {}, "Bring along"),
+        make("h2", {}, "Bring along"),
         labelled("A file, a drawing or a maze file", file, { class: "field wide" }),
         labelled("or its text", this.text, { class: "field wide" }),
         makeButton("Take this text", () => this.#import(this.text.value, "drawn")),

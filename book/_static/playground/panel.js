@@ -19,7 +19,7 @@ export class Panel {
     this.element = make(
       "section",
       { class: "panel", "aria-label": titleOf(algorithm) },
-      make("h3", {}, makeSwatch(algorithm), titleOf(algorithm)),
+      make("h2", {}, makeSwatch(algorithm), titleOf(algorithm)),
       this.view.element,
       this.status,
       drive,

@@ -244,7 +244,7 @@ export class WatchView {
     number.addEventListener("change", look);
     const had = this.inspector.contains(document.activeElement) ? document.activeElement.tagName : null;
     this.inspector.replaceChildren(
-      make("h3", {}, "One robot"),
+      make("h2", {}, "One robot"),
       make("p", { class: "note" }, "Click where one ended, or give its number in the generation."),
       make("div", { class: "controls" }, labelled("Robot", number), ...(panels.length > 1 ? [labelled("of", choice)] : [])),
       ...(looked ? this.#describe(looked) : []),
