@@ -27,6 +27,11 @@ def _write_script(app: Sphinx) -> None:
         script.write_text(bundle.script() + _START, encoding="utf-8")
 
 
+def _read_again(app: Sphinx, env, added: set, changed: set, removed: set) -> list[str]:
+    """Where no page has changed Sphinx copies no static file, and the page would name the script of before."""
+    return [PAGE]
+
+
 def _load(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
     if pagename == PAGE:
         app.add_js_file(SCRIPT, defer="defer")
@@ -35,5 +40,6 @@ def _load(app: Sphinx, pagename: str, templatename: str, context: dict, doctree)
 
 def setup(app: Sphinx) -> ExtensionMetadata:
     app.connect("builder-inited", _write_script)  # before pages are written, which name the script with its checksum
+    app.connect("env-get-outdated", _read_again)
     app.connect("html-page-context", _load)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

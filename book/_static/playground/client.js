@@ -3,9 +3,14 @@
 /** A worker that answers one message after the other. */
 export class Client {
   constructor(makeWorker) {
-    this.worker = makeWorker();
     this.waiting = new Map();
     this.sent = 0;
+    try {
+      this.worker = makeWorker();
+    } catch {
+      this.worker = null; // forbidden, as in some frames
+      return;
+    }
     this.worker.onmessage = ({ data: { id, answer, error } }) => {
       const { resolve, reject } = this.waiting.get(id);
       this.waiting.delete(id);
@@ -13,13 +18,14 @@ export class Client {
       else reject(new Error(error));
     };
     this.worker.onerror = () => {
-      for (const { reject } of this.waiting.values()) reject(new Error("the browser cannot run the worker of this page"));
+      for (const { reject } of this.waiting.values()) reject(cannotRun());
       this.waiting.clear();
     };
   }
 
   /** The answer to a task of worker.js. */
   ask(task, given) {
+    if (!this.worker) return Promise.reject(cannotRun());
     return new Promise((resolve, reject) => {
       const id = this.sent++;
       this.waiting.set(id, { resolve, reject });
@@ -29,7 +35,11 @@ export class Client {
 
   /** Stop; what was asked for and not answered never will be. */
   close() {
-    this.worker.terminate();
+    this.worker?.terminate();
     this.waiting.clear();
   }
+}
+
+function cannotRun() {
+  return new Error("the browser cannot run the workers of this page, which do the computing");
 }

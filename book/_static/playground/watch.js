@@ -20,8 +20,10 @@ export class WatchView {
     this.panels = [];
     this.isStale = true;
     this.isPlaying = false;
+    this.playing = null; // the turn that is being played
     this.turn = 0; // of the runs that are shown: what belongs to earlier ones comes to nothing
-    this.looked = null; // { panel, individual } of the solution that is looked at
+    this.looked = null; // { panel, individual, inspected } of the solution that is looked at
+    this.told = null; // what the inspector tells of: the same, or where there is none the turn
 
     this.play = makeButton("Play", () => (this.isPlaying ? this.pause() : this.#start()), { class: "primary" });
     this.single = makeButton("One generation", () => this.#stepOnce());
@@ -90,11 +92,10 @@ export class WatchView {
     if (this.isStale && state.view === "watch") this.#open();
   }
 
-  /** Stop playing; the generation that is reached becomes part of the state. */
+  /** Stop playing, when the generation that is being made is there. */
   pause() {
     this.isPlaying = false;
     this.play.textContent = "Play";
-    if (!this.isStale && this.#shown() >= 0) this.store.set({ generation: this.#shown() });
   }
 
   destroy() {
@@ -150,14 +151,13 @@ export class WatchView {
   }
 
   async #start() {
-    if (this.#isOver) {
-      this.store.set({ generation: 0 });
-      await this.ready;
-    }
+    if (this.#isOver && this.#shown() > 0) this.store.set({ generation: 0 });
     const { turn } = this;
     this.isPlaying = true;
     this.play.textContent = "Pause";
     this.status.textContent = "";
+    if (this.playing === turn) return; // it had been told to stop, and has not yet
+    this.playing = turn;
     await this.#until(this.ready, turn);
     while (this.isPlaying && turn === this.turn && !this.#isOver) {
       const speed = SPEEDS[this.speed.valueAsNumber];
@@ -166,25 +166,33 @@ export class WatchView {
       await this.#advance(Math.max(1, Math.round((speed * frame) / 1000)), frame, turn);
       await new Promise((resolve) => setTimeout(resolve, Math.max(0, frame - (performance.now() - begun))));
     }
-    if (turn === this.turn && this.isPlaying) this.pause();
+    if (turn !== this.turn) return;
+    this.playing = null;
+    this.pause();
+    if (this.#isOver) this.#tellResults();
+    this.#keep();
   }
 
   async #stepOnce() {
-    if (this.isPlaying) this.pause();
+    this.pause();
     const { turn } = this;
     await this.#until(this.ready, turn);
     if (turn !== this.turn) return;
     await this.#advance(1, Infinity, turn);
-    this.pause();
+    if (this.#isOver) this.#tellResults();
+    this.#keep();
+  }
+
+  /** The generation that is reached becomes part of the state. */
+  #keep() {
+    this.store.set({ generation: this.#shown() });
   }
 
   async #advance(generations, milliseconds, turn) {
-    const wasOver = this.#isOver;
     await this.#until(Promise.all(this.panels.map((panel) => panel.advance(generations, milliseconds))), turn);
     if (turn !== this.turn) return;
     this.looked = null;
     this.#draw();
-    if (this.#isOver && !wasOver) this.#tellResults();
   }
 
   #tellResults() {
@@ -228,6 +236,9 @@ export class WatchView {
 
   #drawInspector() {
     const { looked, panels } = this;
+    const told = looked ?? this.turn;
+    if (told === this.told) return; // so that nobody is interrupted
+    this.told = told;
     const number = make("input", {
       type: "number",
       min: 1,
