@@ -36,7 +36,7 @@ def test_parts_add_up_to_a_generation(measured):
 def test_peers_are_compared_with_what_is_here(measured):
     table = speed.peers_table(measured)
     assert (table.xs("safe", level="method").times_as_long == 1).all()
-    assert len(table.xs("safe", level="method")) == 5
+    assert len(table.xs("safe", level="method")) == 8
     row = table.loc["novelty, end point", "scipy cKDTree"]
     ours = table.loc["novelty, end point", "safe"]
     assert row.times_as_long == pytest.approx(row.microseconds / ours.microseconds)

@@ -404,6 +404,16 @@ def test_drawing_with_a_mouse(visit):
     assert maze_of(address_of(page)) == safe.Maze(walls, ROOM.start, ROOM.goal)
 
 
+def test_what_was_drawn_is_not_lost_to_another_maze(visit):
+    page = visit(cells_address(ROOM))
+    page.mouse.click(*editor_at(page, ROOM)(6, 9))
+    drawn = maze_of(address_of(page))
+    page.get_by_role("combobox", name="Maze").select_option("spiral")
+    assert dict(address_of(page))["maze"] == "spiral"
+    page.get_by_role("button", name="Undo").click()
+    assert maze_of(address_of(page)) == drawn
+
+
 def test_a_maze_whose_goal_is_cut_off_is_not_one_yet(visit):
     page = visit(cells_address(ROOM))
     at = editor_at(page, ROOM)
@@ -505,7 +515,7 @@ def test_a_broken_link_gets_one_clear_line_and_still_shows_something(visit, frag
     problem.wait_for()
     assert message in problem.inner_text()
     assert "\n" not in problem.inner_text()
-    assert page.locator(".safe-playground img, .safe-playground b").count() == 0
+    assert page.locator(".playground img, .playground b").count() == 0
     panel(page, "SAFE").get_by_text("Generation 0").wait_for()
 
 
@@ -513,7 +523,7 @@ def test_a_name_in_an_address_is_never_markup(visit):
     name = "<img src=x onerror=alert(1)>"
     page = visit(f"algorithm={quote(name)}:none:0.5,0.5&{QUICK}")
     page.get_by_role("heading", name=name).wait_for()
-    assert page.locator(".safe-playground img").count() == 0
+    assert page.locator(".playground img").count() == 0
 
 
 def test_the_address_holds_the_whole_state(visit):
@@ -564,9 +574,16 @@ def test_many_runs_count_as_the_package_counts(visit):
         low, high = comparison.success_interval(successes, 20)
         cells = page.locator(".outcomes tbody tr").nth(row).locator("td.number").all_inner_texts()
         assert cells == ["20", str(successes), f"{5 * successes} %", f"{100 * low:.0f} to {100 * high:.0f} %"]
+    told_of = page.locator(".outcomes").inner_text()
     failed = [run.success for run in runs].index(False)
     page.locator(".outcomes tbody tr").nth(1).get_by_role("button", name="a failure").click()
     assert ("seed", str(100 + failed)) in address_of(page)
+    page.get_by_role("tab", name="Many runs").click()
+    assert page.locator(".outcomes").inner_text() == told_of
+    assert [value for key, value in address_of(page) if key in ("algorithm", "seed")] == ["novelty", "random", "100"]
+    page.get_by_label("Seed").locator("visible=true").fill("7")
+    page.keyboard.press("Enter")
+    assert page.locator(".outcomes tbody tr").count() == 0
 
 
 def _drawing_of(visit, name):
@@ -631,7 +648,7 @@ def test_keyboard_alone_is_enough(visit):
 def test_on_a_phone_nothing_is_cut_off(visit, view):
     page = visit(f"view={view}&algorithm=safe&algorithm=standard&seed=3&generation=5", viewport=PHONE)
     page.wait_for_timeout(300)
-    root = page.locator(".safe-playground")
+    root = page.locator(".playground")
     width = root.bounding_box()["width"]
     wider = root.evaluate(
         """(root, right) => [...root.querySelectorAll("*")]
@@ -642,7 +659,7 @@ def test_on_a_phone_nothing_is_cut_off(visit, view):
     )
     assert wider == []
     assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
-    buttons = page.locator(".safe-playground button:visible, .safe-playground select:visible").all()
+    buttons = page.locator(".playground button:visible, .playground select:visible").all()
     assert all(button.bounding_box()["height"] >= 24 for button in buttons)
 
 
@@ -657,14 +674,14 @@ def test_no_violation_of_accessibility(visit, view, scheme):
         page.get_by_label("Robot", exact=True).fill("4")
         page.keyboard.press("Enter")
         page.get_by_text("Robot 4 ended").wait_for()
-        page.locator(".safe-playground summary:visible").click()
+        page.locator(".playground summary:visible").click()
     found = axe.run(page, context="#playground", options={"preload": False}).response["violations"]
     assert [(v["id"], [node["html"][:120] for node in v["nodes"]]) for v in found] == []
 
 
 def test_it_follows_the_theme_of_the_book(visit):
     page = visit("view=drive", color_scheme="light")
-    colour = "getComputedStyle(document.querySelector('.safe-playground')).backgroundColor"
+    colour = "getComputedStyle(document.querySelector('.playground')).backgroundColor"
     light = page.evaluate(colour)
     page.evaluate("document.documentElement.dataset.theme = 'dark'")
     assert page.evaluate(colour) != light

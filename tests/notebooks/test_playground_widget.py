@@ -127,9 +127,7 @@ def test_page_and_kernel_change_the_same(tmp_path):
         notebook = Notebook(page, tmp_path, address, CELLS)
         notebook.run("show")
         notebook.run("again")
-        view, other, another = (
-            notebook.cell(name).locator(".safe-playground") for name in ("show", "again", "another")
-        )
+        view, other, another = (notebook.cell(name).locator(".playground") for name in ("show", "again", "another"))
         for shown in (view, other):
             shown.get_by_role("tab", name="Drive").click()
 

@@ -9,7 +9,7 @@ import { Evolution } from "../../book/_static/playground/evolution.js";
 import { drawingOf, listOf, waysToGoal } from "../../book/_static/playground/maze.js";
 
 const FUNCTIONS = {
-  host: () => (globalThis.process ? `node ${process.version}` : navigator.userAgent.match(/\S*Chrom\S*/)[0]),
+  host: () => (globalThis.process ? `Node ${process.versions.node}` : `Chromium ${navigator.userAgent.match(/Chrom\w*\/(\d+)/)[1]}`),
   shown: ({ value }) => shown(value),
   parseMaze: ({ maze, name }) => parseMaze(maze, name),
   writtenMaze: ({ maze }) => {

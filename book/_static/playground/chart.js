@@ -27,16 +27,10 @@ export class LineChart {
     const toX = (x) => LEFT + (x / lastX) * (WIDTH - LEFT - RIGHT);
     const toY = (y) => HEIGHT - BOTTOM - (y / topY) * (HEIGHT - BOTTOM - TOP);
     const corners = (pairs) => pairs.map(([x, y]) => `${toX(x).toFixed(1)},${toY(y).toFixed(1)}`).join(" ");
-    const text = (x, y, content, anchor) => makeSvg("text", { x, y, "text-anchor": anchor }, content);
     this.drawing.setAttribute("aria-label", `${this.title}: ${series.map(summary).join("; ") || "nothing yet"}`);
     this.drawing.replaceChildren(
-      makeSvg("path", { class: "axis", d: `M${LEFT},${TOP}V${HEIGHT - BOTTOM}H${WIDTH - RIGHT}` }),
-      text(LEFT - 5, toY(topY) + 8, short(topY), "end"),
-      text(LEFT - 5, toY(topY / 2) + 4, short(topY / 2), "end"),
-      text(LEFT - 5, toY(0), "0", "end"),
-      text(LEFT, HEIGHT - BOTTOM + 14, "0", "middle"),
-      text(WIDTH - RIGHT, HEIGHT - BOTTOM + 14, short(lastX), "end"),
-      text((LEFT + WIDTH - RIGHT) / 2, HEIGHT - 4, this.across, "middle"),
+      ...makeAxes(HEIGHT, this.across, lastX, topY),
+      makeText(LEFT - 5, toY(topY / 2) + 4, short(topY / 2), "end"),
       ...series.flatMap(({ kind, points: all, band = [] }) => [
         makeSvg("polygon", {
           class: `band ${kind}`,
@@ -62,7 +56,6 @@ export class ObjectiveSquare {
     const toX = (a) => LEFT + (a / top) * (WIDTH - LEFT - RIGHT);
     const toY = (b) => WIDTH - BOTTOM - (b / top) * (WIDTH - BOTTOM - TOP);
     const dot = ([a, b], r, kind) => makeSvg("circle", { cx: toX(a), cy: toY(b), r, class: kind });
-    const text = (x, y, content, anchor) => makeSvg("text", { x, y, "text-anchor": anchor }, content);
     const told = [], judges = [], winning = [], marks = [];
     for (const { label, kind, objectives, winners, chosen } of groups) {
       const wins = new Map();
@@ -74,18 +67,30 @@ export class ObjectiveSquare {
     }
     this.drawing.setAttribute("aria-label", `Objective functions by their weights a and b. ${told.join("; ")}`);
     this.drawing.replaceChildren(
-      makeSvg("path", { class: "axis", d: `M${LEFT},${TOP}V${WIDTH - BOTTOM}H${WIDTH - RIGHT}` }),
-      text(LEFT, WIDTH - BOTTOM + 14, "0", "middle"),
-      text(WIDTH - RIGHT, WIDTH - BOTTOM + 14, short(top), "end"),
-      text(LEFT - 5, WIDTH - BOTTOM, "0", "end"),
-      text(LEFT - 5, TOP + 8, short(top), "end"),
-      text((LEFT + WIDTH - RIGHT) / 2, WIDTH - 4, "a: goal", "middle"),
+      ...makeAxes(WIDTH, "a: goal", top, top),
       makeSvg("text", { x: 14, y: 110, "text-anchor": "middle", transform: "rotate(-90 14 110)" }, "b: novelty"),
       ...judges,
       ...winning,
       ...marks,
     );
   }
+}
+
+/** Two axes from 0, with what the lower one counts, and where both end. */
+function makeAxes(height, across, lastX, topY) {
+  const bottom = height - BOTTOM, right = WIDTH - RIGHT;
+  return [
+    makeSvg("path", { class: "axis", d: `M${LEFT},${TOP}V${bottom}H${right}` }),
+    makeText(LEFT - 5, TOP + 8, short(topY), "end"),
+    makeText(LEFT - 5, bottom, "0", "end"),
+    makeText(LEFT, bottom + 14, "0", "middle"),
+    makeText(right, bottom + 14, short(lastX), "end"),
+    makeText((LEFT + right) / 2, height - 4, across, "middle"),
+  ];
+}
+
+function makeText(x, y, content, anchor) {
+  return makeSvg("text", { x, y, "text-anchor": anchor }, content);
 }
 
 /** A number that is easy to read, at least as large. */

@@ -32,8 +32,8 @@ export function labelled(text, field, attributes = {}) {
 }
 
 /** A choice among [value, text] pairs. */
-export function makeSelect(options, onchange, attributes = {}) {
-  const select = make("select", { ...attributes }, ...options.map(([value, text]) => make("option", { value }, text)));
+export function makeSelect(options, onchange) {
+  const select = make("select", {}, ...options.map(([value, text]) => make("option", { value }, text)));
   select.addEventListener("change", () => onchange(select.value));
   return select;
 }

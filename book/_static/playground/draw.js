@@ -98,9 +98,10 @@ export class DrawView {
   show(names) {
     const { maze, view } = this.store.state;
     if (names.includes("maze") && maze !== this.own) {
-      this.past = [];
-      this.future = [];
-      this.#take(maze);
+      if (this.draft) this.#remember(); // what was drawn can be brought back
+      this.draft = copyOf(maze);
+      this.#check();
+      this.#draw();
     }
     if (view === "draw" && names.includes("view")) this.#draw();
   }
@@ -113,15 +114,8 @@ export class DrawView {
     this.view.destroy();
   }
 
-  #take({ height, width, walls, start, goal }) {
-    this.draft = { height, width, walls: Uint8Array.from(walls), start: [...start], goal: [...goal] };
-    this.#check();
-    this.#draw();
-  }
-
   #remember() {
-    const { walls, start, goal } = this.draft;
-    this.past.push({ ...this.draft, walls: walls.slice(), start: [...start], goal: [...goal] });
+    this.past.push(copyOf(this.draft));
     if (this.past.length > REMEMBERED) this.past.shift();
     this.future = [];
   }
@@ -167,6 +161,7 @@ export class DrawView {
   }
 
   #press(event) {
+    if (event.button !== 0) return;
     event.preventDefault();
     this.view.canvas.focus();
     this.view.canvas.setPointerCapture(event.pointerId);
@@ -249,30 +244,30 @@ export class DrawView {
   }
 
   #import(text, name) {
-    this.complain(() => {
-      const maze = parseMaze(text, name);
-      this.#remember();
-      this.#replace(maze);
-    });
+    this.complain(() => this.#replace(parseMaze(text, name)));
   }
 
   #empty(height, width) {
     checkedInteger("rows", height, 2, LONGEST_SIDE);
     checkedInteger("columns", width, 2, LONGEST_SIDE);
-    const maze = makeMaze(new Uint8Array(height * width), height, width, [0, 0], [height - 1, width - 1]);
-    this.#remember();
-    this.#replace(maze);
+    this.#replace(makeMaze(new Uint8Array(height * width), height, width, [0, 0], [height - 1, width - 1]));
   }
 
   /** Go on with another maze; what was drawn before can be brought back. */
-  #replace({ height, width, walls, start, goal }) {
-    this.draft = { height, width, walls: Uint8Array.from(walls), start: [...start], goal: [...goal] };
+  #replace(maze) {
+    this.#remember();
+    this.draft = copyOf(maze);
     this.#adopt();
   }
 
   #save(ending, write) {
     download(`maze.${ending}`, write(this.draft));
   }
+}
+
+/** The same maze, to be changed. */
+function copyOf({ height, width, walls, start, goal }) {
+  return { height, width, walls: walls.slice(), start: [...start], goal: [...goal] };
 }
 
 /** In how many cells closeness to the goal misleads, in words. */

@@ -6,19 +6,19 @@ import { labelled, make, makeButton, makeSelect, prefersLessMotion } from "./dom
 import { distanceBetween, SENSORS } from "./maze.js";
 import { MazeView } from "./mazeview.js";
 import { PRESETS } from "./presets.js";
-import { path, STEPS, WEIGHTS } from "./robot.js";
+import { STEPS, Walker, WEIGHTS } from "./robot.js";
 
 const PAUSE = 60; // milliseconds between two steps
 const DIRECTIONS = { right: [0, 1], left: [0, -1], down: [1, 0], up: [-1, 0] };
 
 export class DriveView {
-  constructor(store, { complain, makeWorker }) {
+  constructor(store, { report, makeWorker }) {
     this.store = store;
-    this.complain = complain;
+    this.report = report;
     this.makeWorker = makeWorker;
     this.step = 0;
     this.timer = null;
-    this.cells = [];
+    this.walker = null; // has walked the path that is shown
     this.view = new MazeView({ class: "drive-maze" });
     this.play = makeButton("Play", () => (this.timer ? this.pause() : this.#start()), { class: "primary" });
     this.slider = make("input", { type: "range", min: 0, step: 1, oninput: () => this.#stand(this.slider.valueAsNumber) });
@@ -155,9 +155,8 @@ export class DriveView {
         const { controller: found } = await client.ask("evolve", { maze, parameters: {}, ...run(maze) });
         this.store.set({ controller: found });
       } catch (error) {
-        this.complain(() => {
-          throw error;
-        });
+        this.report(error);
+        return;
       } finally {
         client.close();
       }
@@ -170,9 +169,10 @@ export class DriveView {
     const { maze, controller, parameters } = this.store.state;
     const steps = parameters.steps ?? STEPS;
     controller.forEach((weight, i) => this.sliders[i].show(weight));
-    this.cells = path(maze, controller, steps);
+    this.walker = new Walker(maze, steps);
+    this.walker.walk(controller, 0);
     this.slider.max = steps;
-    const distance = distanceBetween(this.cells.at(-1), maze.goal);
+    const distance = distanceBetween(this.walker.position(steps), maze.goal);
     const reached = parameters.success_distance ?? PARAMETERS.success_distance;
     this.outcome.textContent =
       `After ${steps} steps the robot is ${cellsText(distance)} from the goal: ` +
@@ -182,10 +182,11 @@ export class DriveView {
 
   #stand(step) {
     const { maze, controller } = this.store.state;
-    this.step = Math.min(step, this.cells.length - 1);
-    if (this.step === this.cells.length - 1) this.pause();
+    const { walker } = this;
+    this.step = Math.min(step, walker.steps);
+    if (this.step === walker.steps) this.pause();
     this.slider.value = this.step;
-    const robot = this.cells[this.step];
+    const robot = walker.position(this.step);
     const place = 8 * (robot[0] * maze.width + robot[1]);
     const readings = [...maze.sensors.subarray(place, place + SENSORS.length)];
     readings.forEach((reading, i) => (this.readings[i].textContent = reading));
@@ -201,11 +202,11 @@ export class DriveView {
       return [robot, [robot[0] + down * reach, robot[1] + right * reach]];
     });
     this.view.canvas.setAttribute("aria-label", `The maze with the robot's path. ${this.where.textContent}`);
-    this.view.show({ maze, paths: [{ cells: this.cells }], robot, rays });
+    this.view.show({ maze, paths: [{ cells: walker.route }], robot, rays });
   }
 
   #start() {
-    if (this.step >= this.cells.length - 1) this.#stand(0);
+    if (this.step === this.walker.steps) this.#stand(0);
     this.play.textContent = "Pause";
     const pause = prefersLessMotion() ? 10 * PAUSE : PAUSE;
     this.timer = setInterval(() => this.#stand(this.step + 1), pause);

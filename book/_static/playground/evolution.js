@@ -2,7 +2,7 @@
 
 import { checkedAlgorithm, checkedParameters, COMPONENTS, GOAL, NOVELTY } from "./algorithms.js";
 import { InputError } from "./checks.js";
-import { Archive, Crowd, neighboursOf, rowOf, scoreCells, scorePoints } from "./novelty.js";
+import { Archive, Crowd, neighboursOf, rowOf, rowsOf, scoreCells, scorePoints } from "./novelty.js";
 import { breed, drawGenomes } from "./operators.js";
 import { Sfc64 } from "./random.js";
 import { Walker, WEIGHTS } from "./robot.js";
@@ -85,23 +85,27 @@ export class Evolution {
 
   /** The generation, as plain arrays; as safe.Generation. */
   generation() {
-    const rows = (matrix, columns) =>
-      Array.from({ length: matrix.length / columns }, (_, i) => rowOf(matrix, i, columns));
     const unless = (absent, values) => (absent ? null : Array.from(values));
     return {
       ...this.result(),
-      genomes: rows(this.genomes, WEIGHTS),
-      endpoints: rows(this.endpoints, 2),
+      genomes: rowsOf(this.genomes, WEIGHTS),
+      endpoints: rowsOf(this.endpoints, 2),
       distances: Array.from(this.distances),
       components: this.components.map((values) => Array.from(values)),
       novelty: unless(!this.weighNovelty, this.components[NOVELTY]),
       fitness: unless(this.isRandomSearch, this.fitness),
-      objectives: rows(this.objectives, COMPONENTS.length),
+      objectives: rowsOf(this.objectives, COMPONENTS.length),
       objectiveFitness: unless(!this.evolving, this.objectiveFitness),
       winners: unless(this.isRandomSearch, this.winners),
       archive: this.archive.listed(),
       objectiveArchive: this.objectiveArchive.listed(),
     };
+  }
+
+  /** The cells that a robot stands on, the start first, until its path comes back to one. */
+  route(controller) {
+    this.walker.walk(controller, 0);
+    return this.walker.route;
   }
 
   /** The k nearest neighbours by which the i-th solution of this generation was scored: see `neighboursOf`. */

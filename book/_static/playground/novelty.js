@@ -266,3 +266,8 @@ export function neighboursOf(points, n, i, archive, k, taxicab) {
 export function rowOf(matrix, i, columns) {
   return Array.from(matrix.subarray(i * columns, (i + 1) * columns));
 }
+
+/** All rows of such a matrix. */
+export function rowsOf(matrix, columns) {
+  return Array.from({ length: matrix.length / columns }, (_, i) => rowOf(matrix, i, columns));
+}

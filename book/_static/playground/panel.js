@@ -70,8 +70,8 @@ export class Panel {
       ends: now.ends,
       colour: kindOf(this.algorithm),
       trail: this.#trail(),
-      paths: [{ cells: now.path }, ...(inspected ? [{ cells: inspected.path, colour: "mark" }] : [])],
-      robot: now.path.at(-1),
+      paths: [{ cells: now.route }, ...(inspected ? [{ cells: inspected.route, colour: "mark" }] : [])],
+      robot: now.end,
       links: inspected ? inspected.neighbours.map(({ point }) => [inspected.endpoint, point]) : [],
       marked: inspected?.endpoint,
     });

@@ -90,7 +90,7 @@ export function mount(element, { state = {}, makeWorker, onChange = () => {}, ad
   const { tabs, panels, showTab } = makeTabs(store, views);
   const root = make(
     "div",
-    { class: "safe-playground" },
+    { class: "playground" },
     make("div", { class: "head" }, tabs, labelled("Maze", mazes)),
     problem,
     welcome,

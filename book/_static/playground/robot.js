@@ -74,6 +74,11 @@ export class Walker {
     this.loopStart = steps;
   }
 
+  /** The cells that the robot of the last walk has stood on, [row, column] each, until its path came back to one. */
+  get route() {
+    return Array.from({ length: this.length }, (_, step) => this.position(step));
+  }
+
   /** The number of the cell where the robot of the last walk stands at a step. */
   cellAt(step) {
     const { trail, length, loopStart } = this;

@@ -8,6 +8,7 @@ import { kindOf, makeAlgorithmChoice, makeParameterFields, makeSeedFields, makeS
 import { wilsonInterval } from "./interval.js";
 
 const MOST_WORKERS = 8;
+const SETTINGS = ["maze", "algorithms", "seed", "parameters"];
 const COUNTS = [10, 20, 50, 100, 200, 500];
 
 export class RunsView {
@@ -16,6 +17,8 @@ export class RunsView {
     this.report = report;
     this.makeWorker = makeWorker;
     this.clients = [];
+    this.settings = {}; // of these runs
+    this.left = null; // { algorithms, seed } of these runs, while one of them, `opened` by its seed, is watched
     this.outcomes = []; // of each algorithm { algorithm, results }: by the number of the run, whether it succeeded
     this.turn = 0;
     this.count = 50;
@@ -71,9 +74,15 @@ export class RunsView {
     this.#draw();
   }
 
-  show(names) {
-    if (names.some((name) => ["maze", "algorithms", "seed", "parameters"].includes(name))) {
+  show() {
+    const { state } = this.store;
+    if (state.view !== "runs") return;
+    const { left } = this;
+    this.left = null;
+    if (left?.opened === state.seed) this.store.set({ algorithms: left.algorithms, seed: left.seed });
+    else if (SETTINGS.some((name) => state[name] !== this.settings[name])) {
       this.pause();
+      this.settings = Object.fromEntries(SETTINGS.map((name) => [name, state[name]]));
       this.outcomes = [];
       this.#draw();
     }
@@ -96,7 +105,7 @@ export class RunsView {
   }
 
   async #start() {
-    const { algorithms } = this.store.state;
+    const { algorithms } = this.settings;
     if (this.outcomes.length === 0) this.outcomes = algorithms.map((algorithm) => ({ algorithm, results: [] }));
     const waiting = [];
     for (let number = 0; number < this.count; number++) {
@@ -120,7 +129,7 @@ export class RunsView {
 
   /** Let a worker make one run after the other, until none waits. */
   async #work(client, waiting, turn) {
-    const { maze, seed, parameters } = this.store.state;
+    const { maze, seed, parameters } = this.settings;
     while (waiting.length > 0) {
       const [outcome, number] = waiting.shift();
       const { algorithm } = outcome;
@@ -166,8 +175,10 @@ export class RunsView {
 
   #opener(text, algorithm, number) {
     const open = () => {
-      const seed = nthSeed(this.store.state.seed, number);
-      this.store.set({ algorithms: [algorithm], seed, generation: 0, view: "watch" });
+      const { algorithms, seed } = this.settings;
+      const opened = nthSeed(seed, number);
+      this.left = { algorithms, seed, opened };
+      this.store.set({ algorithms: [algorithm], seed: opened, generation: 0, view: "watch" });
     };
     return makeButton(text, open, { disabled: number < 0, "aria-label": `Watch ${text} of ${titleOf(algorithm)}` });
   }

@@ -246,7 +246,7 @@ export class WatchView {
       step: 1,
       value: looked ? looked.individual + 1 : "",
     });
-    const choice = makeSelect(panels.map(({ algorithm }, i) => [i, titleOf(algorithm)]), () => look(), {});
+    const choice = makeSelect(panels.map(({ algorithm }, i) => [i, titleOf(algorithm)]), () => look());
     if (looked) choice.value = panels.indexOf(looked.panel);
     const look = () => {
       const n = Math.round(number.valueAsNumber || 1);

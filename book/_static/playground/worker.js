@@ -2,8 +2,8 @@
 
 import { Evolution, evolve } from "./evolution.js";
 import { COMPONENTS, GOAL, NOVELTY } from "./algorithms.js";
-import { rowOf } from "./novelty.js";
-import { path, WEIGHTS } from "./robot.js";
+import { rowOf, rowsOf } from "./novelty.js";
+import { WEIGHTS } from "./robot.js";
 
 /** Answer the messages { id, task, ...arguments } of a page by { id, answer } or { id, error }. */
 export function serve(scope) {
@@ -55,10 +55,11 @@ function report(evolution, generations, milliseconds = Infinity) {
     history,
     result: evolution.result(),
     isOver: evolution.isOver,
-    path: path(evolution.maze, evolution.best.controller, evolution.parameters.steps),
-    ends: rows(evolution.endpoints, 2),
-    archive: rows(evolution.archive.points, 2).slice(0, evolution.archive.size),
-    objectives: rows(evolution.objectives, COMPONENTS.length),
+    route: evolution.route(evolution.best.controller),
+    end: evolution.best.endpoint,
+    ends: rowsOf(evolution.endpoints, 2),
+    archive: rowsOf(evolution.archive.points, 2).slice(0, evolution.archive.size),
+    objectives: rowsOf(evolution.objectives, COMPONENTS.length),
     winners: evolution.isRandomSearch ? [] : [...evolution.winners],
   };
 }
@@ -72,7 +73,7 @@ function inspected(evolution, i) {
   return {
     controller,
     endpoint: rowOf(evolution.endpoints, i, 2),
-    path: path(evolution.maze, controller, evolution.parameters.steps),
+    route: evolution.route(controller),
     distance: evolution.distances[i],
     novelty: evolution.weighNovelty ? evolution.components[NOVELTY][i] : null,
     neighbours: evolution.weighNovelty ? evolution.neighbours(i) : [],
@@ -82,8 +83,4 @@ function inspected(evolution, i) {
     fromGoal: judged ? parts[GOAL] : null,
     fromNovelty: judged ? parts[NOVELTY] : null,
   };
-}
-
-function rows(matrix, columns) {
-  return Array.from({ length: matrix.length / columns }, (_, i) => rowOf(matrix, i, columns));
 }
