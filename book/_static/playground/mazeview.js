@@ -2,8 +2,11 @@
 
 import { make } from "./dom.js";
 
-const RADIUS = 0.55; // of a dot, in cells, but at least
-const SMALLEST = 1.6; // so many pixels
+// Radii: so many cells, but at least so many pixels.
+const DOT = [0.4, 1.6];
+const ROBOT = [0.45, 4.5];
+const RING = [0.6, 6];
+const STAR = [0.85, 10];
 
 /** A picture of a maze. `show` takes what is to be seen, and draws it anew whenever its size or the theme changes. */
 export class MazeView {
@@ -52,7 +55,9 @@ export class MazeView {
     this.canvas.width = pixels;
     this.canvas.height = Math.round(scale * maze.height);
     const context = this.canvas.getContext("2d");
-    const dot = Math.max(RADIUS * scale, SMALLEST * devicePixelRatio);
+    const [dot, body, ring, star] = [DOT, ROBOT, RING, STAR].map(([cells, least]) =>
+      Math.max(cells * scale, least * devicePixelRatio),
+    );
     const centre = ([row, column]) => [(column + 0.5) * scale, (row + 0.5) * scale];
     const circle = (cell, radius, filled = true) => {
       context.beginPath();
@@ -89,22 +94,22 @@ export class MazeView {
     }
     context.fillStyle = colourOf(colour ?? "ends");
     context.globalAlpha = 0.75;
-    for (const [cell, count] of counted(ends ?? [])) circle(cell, dot * Math.min(0.9 + 0.25 * Math.sqrt(count), 3));
+    for (const [cell, count] of counted(ends ?? [])) circle(cell, dot * Math.min(1 + 0.3 * Math.sqrt(count), 3.5));
     context.globalAlpha = 1;
     context.strokeStyle = colourOf("mark");
     for (const [from, to] of [...links, ...rays]) line([from, to], dot / 2);
 
     context.strokeStyle = context.fillStyle = colourOf("start");
-    context.lineWidth = 0.8 * dot;
-    circle(maze.start, 2.6 * dot, false);
-    this.#star(context, centre(maze.goal), 4 * dot, colourOf("goal"), colourOf("open"));
+    context.lineWidth = 0.3 * ring;
+    circle(maze.start, ring, false);
+    this.#star(context, centre(maze.goal), star, colourOf("goal"), colourOf("open"));
     if (robot) {
       context.fillStyle = colourOf("robot");
-      circle(robot, 2 * dot);
+      circle(robot, body);
     }
     context.strokeStyle = colourOf("mark");
-    context.lineWidth = 0.8 * dot;
-    if (marked) circle(marked, 3 * dot, false);
+    context.lineWidth = 0.3 * ring;
+    if (marked) circle(marked, 1.2 * ring, false);
     if (cursor) {
       const [x, y] = centre(cursor), half = Math.max(scale / 2, 3 * devicePixelRatio);
       context.lineWidth = 2 * devicePixelRatio;
