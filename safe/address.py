@@ -61,7 +61,7 @@ def run_address(experiment: Experiment, run: int) -> str:
         view="watch",
         maze=_maze(experiment.maze),
         algorithm=_algorithm(experiment.algorithm),
-        seed=seed_text(experiment.seed_sequence(run)),
+        seed=f"0x{experiment.digest}/{run}",
         **{name: repr(v) for name, v in asdict(experiment.parameters).items() if v != paper[name]},
     )
 

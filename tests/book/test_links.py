@@ -44,6 +44,7 @@ TELL_OF_NEITHER = {
     "tab-parameters",
     "tab-parts",
     "tab-peers",
+    "tab-playground",
     "tab-sensors",
     "tab-verdicts",
 }

@@ -7,6 +7,7 @@ from urllib.parse import quote
 
 import numpy as np
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 
 import safe
 from safe import address, comparison, statistics
@@ -666,7 +667,6 @@ def test_on_a_phone_nothing_is_cut_off(visit, view):
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("view", VIEWS)
 def test_no_violation_of_accessibility(visit, view, scheme):
-    axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
     page = visit(f"view={view}&algorithm=safe&algorithm=novelty&seed=3&generation=5&{QUICK}", color_scheme=scheme)
     page.wait_for_timeout(500)
     if view == "watch":
@@ -675,7 +675,7 @@ def test_no_violation_of_accessibility(visit, view, scheme):
         page.keyboard.press("Enter")
         page.get_by_text("Robot 4 ended").wait_for()
         page.locator(".playground summary:visible").click()
-    found = axe.run(page, context="#playground", options={"preload": False}).response["violations"]
+    found = Axe().run(page, context="#playground", options={"preload": False}).response["violations"]
     assert [(v["id"], [node["html"][:120] for node in v["nodes"]]) for v in found] == []
 
 
