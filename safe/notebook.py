@@ -126,9 +126,12 @@ def executor_at(scheduler: str, patience: float = 10) -> Executor | None:
         return None
     try:
         from distributed import Client  # not in every environment, and slow to import
+        from distributed.comm import get_address_host_port
 
-        return Client(checks.text("scheduler", scheduler), timeout=patience).get_executor()
-    except (ImportError, OSError, ValueError) as error:
+        # a client that fails at what is no address stays half alive, and can block another when it is collected
+        get_address_host_port(checks.text("scheduler", scheduler))
+        return Client(scheduler, timeout=patience, set_as_default=False).get_executor()
+    except (ImportError, OSError, TypeError, ValueError) as error:
         raise ValueError(
             "scheduler must be the address of a running Dask scheduler, or empty; "
             f"was {checks.shown(scheduler)} ({checks.reason(error)})"

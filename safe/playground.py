@@ -8,7 +8,7 @@ from dataclasses import asdict, fields
 try:
     import anywidget
 except ImportError as error:
-    raise ImportError("safe.Playground needs anywidget: pip install 'safe-evolution[playground]'") from error
+    raise ImportError("safe.Playground needs anywidget: pip install anywidget") from error
 import numpy as np
 import traitlets
 from IPython.core.pylabtools import print_figure

@@ -86,3 +86,21 @@ def test_without_a_scheduler_there_is_no_executor():
 def test_addresses_of_no_scheduler(address):
     with pytest.raises(ValueError, match="scheduler must be the address of a running Dask scheduler"):
         executor_at(address, patience=1)
+
+
+def test_an_address_that_is_none_blocks_nobody():
+    """As it would where the garbage collector takes a client that was refused while another begins."""
+    code = """
+import gc
+from distributed.utils import LoopRunner
+from safe.notebook import executor_at
+begin = LoopRunner._start_unlocked
+LoopRunner._start_unlocked = lambda self: (gc.collect(), begin(self))
+for address in ["nowhere", "tcp://127.0.0.1:1"]:
+    try:
+        executor_at(address, patience=1)
+    except ValueError as error:
+        print("refused")
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=30)
+    assert done.stdout.split() == ["refused"] * 2, done.stderr

@@ -260,7 +260,7 @@ except ImportError as error:
 def test_without_anywidget_all_else_can_be_used():
     command = [sys.executable, "-c", WITHOUT_ANYWIDGET]
     output = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    assert output == "safe.Playground needs anywidget: pip install 'safe-evolution[playground]'\n"
+    assert output == "safe.Playground needs anywidget: pip install anywidget\n"
 
 
 def test_only_who_asks_for_it_loads_anywidget():

@@ -63,6 +63,15 @@ def test_key_figures(measured):
     assert numbers.days_of_ten_million_runs == pytest.approx(numbers.core_seconds / 5000 * 1e7 / 86400, rel=0.1)
 
 
+def test_key_figures_need_a_browser(measured):
+    for group in (
+        measured.group != "twin",
+        measured.method.isna() | ~measured.method.astype(str).str.contains("Chrom"),
+    ):
+        with pytest.raises(ValueError, match="playground in Chromium"):
+            speed.key_figures(measured[group])
+
+
 def test_figures(measured):
     _, panels = figures.plot_parts(speed.parts_table(measured))
     assert [axes.get_title() for axes in panels] == ["maze1", "maze2"]
