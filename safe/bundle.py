@@ -20,6 +20,7 @@ _FROM = re.compile(r'^(import|export)\s*\{([^{}]*)\}\s*from\s*"\./([^"/]+)";[^\S
 _DECLARATION = re.compile(
     r"^(export\s+)?((?:async\s+)?function\b\s*\*?\s*|(?:const|let|class)\s+)([\w$]+)", re.MULTILINE
 )
+_COMMENT = re.compile(r"^[^\S\n]*(?://.*|/\*\*(?:(?!\*/).|\n)*\*/)\n", re.MULTILINE)  # on lines of its own
 _OTHER_FORM = re.compile(r"^(?:import|export)\b.*|(?<![\w$.#])import\s*(?:\(|\.\s*meta\b).*", re.MULTILINE)
 
 # A worker is made of the text of the very function that makes it: no address need be known.
@@ -43,7 +44,7 @@ class _Module(NamedTuple):
     imports: list[tuple[str, set[str]]]  # from which module, which names
     exports: set[str]
     names: list[str]  # declared at the beginning of a line
-    body: str  # without imports and exports
+    body: str  # without imports, exports, and comments that have lines of their own
 
 
 def script(entries: tuple[str, ...] = ENTRIES, folder: Path = FOLDER) -> str:
@@ -106,4 +107,5 @@ def _parse(text: str, file: str) -> _Module:
     body = _DECLARATION.sub(r"\2\3", body)
     if other_form := _OTHER_FORM.search(body):
         raise ValueError(f"{file} must import and export as {Path(__file__).name} reads it; was {other_form.group()!r}")
+    body = re.sub(r"\n{2,}", "\n", _COMMENT.sub("", body))  # whoever reads it reads the modules; a page loads it
     return _Module(imports, exports, [name for *_, name in declarations], body)

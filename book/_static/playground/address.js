@@ -1,17 +1,19 @@
 // The state of the playground as the part of a page's address behind the #, and back; safe/address.py writes the same.
 
 import { ALGORITHMS, checkedAlgorithm, checkedParameters, PARAMETERS, RATINGS } from "./algorithms.js";
-import { checkedChoice, checkedRow, InputError, shown } from "./checks.js";
+import { checkedChoice, checkedInteger, checkedRow, InputError, MOST, shown } from "./checks.js";
 import { drawingOf, LONGEST_SIDE, makeMaze, parseMaze } from "./maze.js";
 import { MAZES } from "./mazes.js";
 import { checkedSeed } from "./random.js";
 import { WEIGHTS } from "./robot.js";
 
 export const VIEWS = ["watch", "drive", "draw", "runs"];
+export const MOST_RUNS = 10000;
+const MOST_ALGORITHMS = 8; // side by side
 const RATING_CODES = { none: RATINGS[0], genotypic: RATINGS[1] };
 
-/** The state that an address describes: those of { view, maze, algorithms, seed, parameters, generation, controller }
- * that it names. Throws an InputError where it cannot be read. */
+/** The state that an address describes: those of { view, maze, algorithms, seed, parameters, generation, runs,
+ * controller } that it names. Throws an InputError where it cannot be read. */
 export function readAddress(text) {
   const state = {};
   const parameters = {};
@@ -22,10 +24,14 @@ export function readAddress(text) {
     else if (key === "maze") state.maze = readMaze(value);
     else if (key === "algorithm") (state.algorithms ??= []).push(readAlgorithm(value));
     else if (key === "seed") state.seed = readSeed(value);
-    else if (key === "generation") state.generation = readNumber(key, value);
+    else if (key === "generation") state.generation = checkedInteger(key, readNumber(key, value), 0, MOST);
+    else if (key === "runs") state.runs = checkedInteger(key, readNumber(key, value), 1, MOST_RUNS);
     else if (key === "controller") state.controller = readController(value);
     else if (Object.hasOwn(PARAMETERS, key)) parameters[key] = readNumber(key, value);
     else throw new InputError(`an address must hold known keys; was ${shown(key)}`);
+  }
+  if (state.algorithms?.length > MOST_ALGORITHMS) {
+    throw new InputError(`an address may hold ${MOST_ALGORITHMS} algorithms at the most; had ${state.algorithms.length}`);
   }
   if (Object.keys(parameters).length > 0) {
     checkedParameters(parameters);
@@ -35,14 +41,13 @@ export function readAddress(text) {
 }
 
 /** The address of a state. */
-export function writeAddress({ view, maze, algorithms, seed, parameters, generation, controller }) {
+export function writeAddress({ view, maze, algorithms, seed, parameters, generation, runs, controller }) {
   const parts = [["view", view], ["maze", writeMaze(maze)]];
-  if (view === "drive") parts.push(["controller", controller.join()]);
-  if (view === "watch" || view === "runs") {
-    for (const algorithm of algorithms) parts.push(["algorithm", writeAlgorithm(algorithm)]);
-    parts.push(["seed", writeSeed(seed)], ...Object.entries(parameters));
-  }
+  for (const algorithm of algorithms) parts.push(["algorithm", writeAlgorithm(algorithm)]);
+  parts.push(["seed", writeSeed(seed)], ...Object.entries(parameters));
   if (view === "watch" && generation > 0) parts.push(["generation", generation]);
+  if (view === "drive") parts.push(["controller", controller.join()]);
+  if (view === "runs") parts.push(["runs", runs]);
   return parts.map(([key, value]) => `${key}=${encoded(String(value))}`).join("&");
 }
 
@@ -51,7 +56,7 @@ export function readSeed(text) {
   const lists = text.split("/").map((list) => list.split(","));
   const isSeed = lists.length <= 2 && lists.flat().every((number) => /^([0-9]{1,80}|0x[0-9a-f]{1,64})$/i.test(number));
   if (!isSeed) {
-    throw new InputError(`seed must be an integer, such as 7, or several, such as 1,2/17; was ${shown(text)}`);
+    throw new InputError(`seed must be an integer of at least 0, such as 7; was ${shown(text)}`);
   }
   const [entropy, spawnKey = []] = lists.map((list) => list.map(BigInt));
   return checkedSeed({ entropy, spawnKey });
@@ -79,6 +84,11 @@ export function isNamed(maze) {
   return Object.hasOwn(MAZES, maze.name) && drawingOf(namedMaze(maze.name)) === drawingOf(maze);
 }
 
+/** A maze, by its name where it is one of MAZES. */
+export function known(maze) {
+  return Object.keys(MAZES).map((name) => ({ ...maze, name })).find(isNamed) ?? maze;
+}
+
 /** 16 weights from a text, or from an array of numbers. */
 export function readController(value) {
   const weights = typeof value === "string" ? value.split(",").map(readWeight) : value;
@@ -90,7 +100,7 @@ function readWeight(text) {
 }
 
 function readNumber(name, text) {
-  if (!/^[0-9]{1,9}(\.[0-9]{1,20})?(e-[0-9]{1,3})?$/.test(text)) throw new InputError(`${name} must be a number; was ${shown(text)}`);
+  if (!/^[0-9]{1,9}(\.[0-9]{1,30})?(e-[0-9]{1,3})?$/.test(text)) throw new InputError(`${name} must be a number; was ${shown(text)}`);
   return Number(text);
 }
 
@@ -98,7 +108,7 @@ function readAlgorithm(text) {
   const [name, rating, objectives, ...more] = text.split(":");
   if (rating === undefined) return checkedAlgorithm(name);
   const weights = objectives === "drawn" ? null : objectives ? objectives.split(",").map(readWeight) : [];
-  if (more.length > 0 || !Object.hasOwn(RATING_CODES, rating) || (weights !== null && weights.length % 2)) {
+  if (objectives === undefined || more.length > 0 || !Object.hasOwn(RATING_CODES, rating) || (weights !== null && weights.length % 2)) {
     throw new InputError(`algorithm must be a name, or name:rating:a,b,...; was ${shown(text)}`);
   }
   const pairs = weights?.flatMap((weight, i) => (i % 2 ? [] : [[weight, weights[i + 1]]])) ?? null;

@@ -8,6 +8,7 @@ const LEFT = 36;
 const BOTTOM = 32;
 const TOP = 10;
 const RIGHT = 10;
+const MOST_POINTS = 400; // of a line or a square that are drawn
 
 /** Lines over a number. */
 export class LineChart {
@@ -21,22 +22,22 @@ export class LineChart {
   /** series: { label, kind, points: [[x, y]], band: [[x, low, high]] } each; `kind` chooses the looks of a line (see
    * playground.css). top and last: where the scales end, unless the points go beyond. */
   show(series, top = 0, last = 1) {
-    const points = series.flatMap(({ points: all, band = [] }) => [...all, ...band.map(([x, , high]) => [x, high])]);
-    const lastX = Math.max(last, ...points.map(([x]) => x));
-    const topY = rounded(Math.max(top, ...points.map(([, y]) => y)) || 1);
+    const points = series.flatMap(({ points: all, band = [] }) => all.concat(band.map(([x, , high]) => [x, high])));
+    const lastX = points.reduce((largest, [x]) => Math.max(largest, x), last);
+    const topY = rounded(points.reduce((largest, [, y]) => Math.max(largest, y), top) || 1);
     const toX = (x) => LEFT + (x / lastX) * (WIDTH - LEFT - RIGHT);
     const toY = (y) => HEIGHT - BOTTOM - (y / topY) * (HEIGHT - BOTTOM - TOP);
     const corners = (pairs) => pairs.map(([x, y]) => `${toX(x).toFixed(1)},${toY(y).toFixed(1)}`).join(" ");
     this.drawing.setAttribute("aria-label", `${this.title}: ${series.map(summary).join("; ") || "nothing yet"}`);
     this.drawing.replaceChildren(
-      ...makeAxes(HEIGHT, this.across, lastX, topY),
+      ...makeAxes(HEIGHT, this.across, [0, lastX], [0, topY]),
       makeText(LEFT - 5, toY(topY / 2) + 4, short(topY / 2), "end"),
       ...series.flatMap(({ kind, points: all, band = [] }) => [
         makeSvg("polygon", {
           class: `band ${kind}`,
           points: corners([...band.map(([x, low]) => [x, low]), ...band.map(([x, , high]) => [x, high]).reverse()]),
         }),
-        makeSvg("polyline", { class: `line ${kind}`, points: corners(all) }),
+        makeSvg("polyline", { class: `line ${kind}`, points: corners(thinned(all)) }),
       ]),
     );
   }
@@ -46,28 +47,30 @@ export class LineChart {
 export class ObjectiveSquare {
   constructor() {
     this.drawing = makeSvg("svg", { viewBox: "0 0 250 250", role: "img" });
-    this.element = make("figure", { class: "chart square" }, make("figcaption", {}, "Objective functions"), this.drawing);
+    this.element = make("figure", { class: "chart square" }, make("figcaption", {}, "Objective functions", make("small", {}, "large: those that gave robots their fitness")), this.drawing);
   }
 
   /** groups: { label, kind, objectives: [a, b] each, winners: which of them gave each solution its fitness, chosen: one
    * to mark, or null }, one for each algorithm. */
   show(groups) {
-    const top = Math.max(1, ...groups.flatMap(({ objectives }) => objectives.flat().map(Math.abs)));
-    const toX = (a) => LEFT + (a / top) * (WIDTH - LEFT - RIGHT);
-    const toY = (b) => WIDTH - BOTTOM - (b / top) * (WIDTH - BOTTOM - TOP);
+    const weights = groups.flatMap(({ objectives }) => objectives.flat());
+    const top = weights.reduce((largest, weight) => Math.max(largest, weight), 1);
+    const low = weights.reduce((smallest, weight) => Math.min(smallest, weight), 0);
+    const toX = (a) => LEFT + ((a - low) / (top - low)) * (WIDTH - LEFT - RIGHT);
+    const toY = (b) => WIDTH - BOTTOM - ((b - low) / (top - low)) * (WIDTH - BOTTOM - TOP);
     const dot = ([a, b], r, kind) => makeSvg("circle", { cx: toX(a), cy: toY(b), r, class: kind });
     const told = [], judges = [], winning = [], marks = [];
     for (const { label, kind, objectives, winners, chosen } of groups) {
       const wins = new Map();
       for (const j of winners) wins.set(j, (wins.get(j) ?? 0) + 1);
-      judges.push(...objectives.map((objective) => dot(objective, 2.2, "judge")));
-      winning.push(...Array.from(wins, ([j, count]) => dot(objectives[j], 3.5 + Math.sqrt(count) / 3, `winner ${kind}`)));
+      for (const objective of thinned(objectives)) judges.push(dot(objective, 2.2, "judge"));
+      for (const [j, count] of wins) winning.push(dot(objectives[j], 3.5 + Math.min(6, Math.sqrt(count) / 3), `winner ${kind}`));
       if (chosen !== null) marks.push(dot(objectives[chosen], 11, "chosen"));
       told.push(`${label}: ${objectives.length}, of which ${wins.size} gave solutions their fitness`);
     }
     this.drawing.setAttribute("aria-label", `Objective functions by their weights a and b. ${told.join("; ")}`);
     this.drawing.replaceChildren(
-      ...makeAxes(WIDTH, "a: goal", top, top),
+      ...makeAxes(WIDTH, "a: closeness", [low, top], [low, top]),
       makeSvg("text", { x: 14, y: 110, "text-anchor": "middle", transform: "rotate(-90 14 110)" }, "b: novelty"),
       ...judges,
       ...winning,
@@ -76,17 +79,23 @@ export class ObjectiveSquare {
   }
 }
 
-/** Two axes from 0, with what the lower one counts, and where both end. */
-function makeAxes(height, across, lastX, topY) {
+/** Two axes, with what the lower one counts, and where both begin and end. */
+function makeAxes(height, across, [firstX, lastX], [lowY, topY]) {
   const bottom = height - BOTTOM, right = WIDTH - RIGHT;
   return [
     makeSvg("path", { class: "axis", d: `M${LEFT},${TOP}V${bottom}H${right}` }),
     makeText(LEFT - 5, TOP + 8, short(topY), "end"),
-    makeText(LEFT - 5, bottom, "0", "end"),
-    makeText(LEFT, bottom + 14, "0", "middle"),
+    makeText(LEFT - 5, bottom, short(lowY), "end"),
+    makeText(LEFT, bottom + 14, short(firstX), "middle"),
     makeText(right, bottom + 14, short(lastX), "end"),
     makeText((LEFT + right) / 2, height - 4, across, "middle"),
   ];
+}
+
+/** So many values that they can be told apart, the last among them. */
+function thinned(values) {
+  const step = Math.ceil(values.length / MOST_POINTS);
+  return step <= 1 ? values : values.filter((_, i) => i % step === 0 || i === values.length - 1);
 }
 
 function makeText(x, y, content, anchor) {

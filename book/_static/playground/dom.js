@@ -40,7 +40,7 @@ export function makeSelect(options, onchange) {
 
 /** A row of choices of which one is taken: radio buttons for [value, text] pairs, in a group with a name. */
 export function makeRadios(name, options, chosen, onchange) {
-  const group = `${name}-${serial++}`;
+  const group = freshId(name);
   return make(
     "fieldset",
     { class: "radios" },
@@ -56,11 +56,12 @@ export function makeRadios(name, options, chosen, onchange) {
   );
 }
 
-let serial = 0; // tells groups and headings of several playgrounds on a page apart
+const OWN = Math.random().toString(36).slice(2); // each widget of a notebook loads this module anew
+let serial = 0;
 
 /** An id that no other element has. */
 export function freshId(name) {
-  return `playground-${name}-${serial++}`;
+  return `playground-${OWN}-${name}-${serial++}`;
 }
 
 /** Hand a text to the reader as a file. */

@@ -1,5 +1,6 @@
 // Draw: a maze of one's own, with mouse, touch or keyboard.
 
+import { known } from "./address.js";
 import { checkedInteger } from "./checks.js";
 import { download, labelled, make, makeButton, makeRadios } from "./dom.js";
 import { distanceBetween, drawingOf, listOf, LONGEST_SIDE, makeMaze, parseMaze, waysToGoal } from "./maze.js";
@@ -16,6 +17,7 @@ export class DrawView {
     this.tool = "wall";
     this.brush = 1;
     this.cursor = null;
+    this.pointer = null; // which draws
     this.last = null; // the cell that the stroke has come to
     this.past = [];
     this.future = [];
@@ -28,8 +30,10 @@ export class DrawView {
     });
     const { canvas } = this.view;
     canvas.addEventListener("pointerdown", (event) => this.#press(event));
-    canvas.addEventListener("pointermove", (event) => this.last && this.#drag(this.view.cellAt(event)));
-    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => this.#finish());
+    canvas.addEventListener("pointermove", (event) => event.pointerId === this.pointer && this.#drag(this.view.cellAt(event)));
+    for (const end of ["pointerup", "pointercancel"]) {
+      canvas.addEventListener(end, (event) => event.pointerId === this.pointer && this.#finish());
+    }
     canvas.addEventListener("keydown", (event) => this.#key(event));
     canvas.addEventListener("blur", () => this.#moveCursor(null));
     this.undoButton = makeButton("Undo", () => this.#undo(this.past, this.future));
@@ -40,8 +44,7 @@ export class DrawView {
     const file = make("input", { type: "file", accept: ".maze,.txt,text/plain" });
     file.addEventListener("change", async () => {
       if (file.files.length === 1) {
-        const name = file.files[0].name.replace(/\.[^.]*$/, "");
-        this.#import(await file.files[0].text(), name);
+        this.#import(await file.files[0].text());
       }
       file.value = "";
     });
@@ -79,7 +82,7 @@ export class DrawView {
           labelled("Columns", columns),
           makeButton("Empty maze", () => this.complain(() => this.#empty(rows.valueAsNumber, columns.valueAsNumber))),
         ),
-        make("h2", {}, "Take along"),
+        make("h2", {}, "Save"),
         make(
           "div",
           { class: "controls" },
@@ -87,10 +90,10 @@ export class DrawView {
           makeButton("Save as maze file", () => this.#save("maze", listOf)),
           makeButton("Show as drawing below", () => (this.text.value = drawingOf(this.draft))),
         ),
-        make("h2", {}, "Bring along"),
-        labelled("A file, a drawing or a maze file", file, { class: "field wide" }),
+        make("h2", {}, "Load"),
+        labelled("A file", file, { class: "field wide" }),
         labelled("or its text", this.text, { class: "field wide" }),
-        makeButton("Take this text", () => this.#import(this.text.value, "drawn")),
+        makeButton("Load this text", () => this.#import(this.text.value)),
       ),
     );
   }
@@ -121,14 +124,18 @@ export class DrawView {
   }
 
   #undo(from, to) {
-    if (from.length === 0) return;
+    if (from.length === 0 || this.last) return;
     to.push(this.draft);
     this.draft = from.pop();
     this.#adopt();
   }
 
-  /** The draft has changed: check it, and where it is a maze let all others know. */
+  /** The draft may have changed: check it, and where it is a maze let all others know. */
   #adopt() {
+    if (this.past.length > 0 && drawingOf(this.past.at(-1)) === drawingOf(this.draft)) {
+      this.past.pop();
+      return;
+    }
     const isMaze = this.#check();
     if (isMaze) this.store.set({ maze: this.own, generation: 0 });
     this.#draw();
@@ -141,7 +148,7 @@ export class DrawView {
     this.undoButton.disabled = this.past.length === 0;
     this.redoButton.disabled = this.future.length === 0;
     try {
-      this.own = makeMaze(walls, height, width, start, goal, "drawn");
+      this.own = known(makeMaze(walls, height, width, start, goal, "drawn"));
     } catch (error) {
       tell(["bad", `Not a maze yet: ${error.message}.`], ["plain", "The other views keep to the last one that was a maze."]);
       return false;
@@ -150,7 +157,7 @@ export class DrawView {
     const way = ways[start[0] * width + start[1]], distance = distanceBetween(start, goal);
     tell(
       ["good", "The goal can be reached."],
-      ["plain", `From the start it is ${distance} cells away, as distance counts them, and ${way} on the shortest way: ${(way / distance).toFixed(1)} times as far.`],
+      ["plain", `From the start it is ${distance} cells away in rows and columns, and ${way} on the shortest way: ${(way / distance).toFixed(1)} times as far.`],
       ["plain", deception(this.own, ways)],
     );
     return true;
@@ -161,14 +168,16 @@ export class DrawView {
   }
 
   #press(event) {
-    if (event.button !== 0) return;
+    if (event.button !== 0 || this.last) return;
     event.preventDefault();
     this.view.canvas.focus();
     this.view.canvas.setPointerCapture(event.pointerId);
     this.cursor = null;
     this.#remember();
+    this.pointer = event.pointerId;
     this.last = this.view.cellAt(event);
     this.#apply(this.last);
+    this.#draw();
   }
 
   #drag(cell) {
@@ -181,11 +190,12 @@ export class DrawView {
       });
     }
     this.last = cell;
+    this.#draw();
   }
 
   #finish() {
     if (!this.last) return;
-    this.last = null;
+    this.last = this.pointer = null;
     this.#adopt();
   }
 
@@ -194,7 +204,7 @@ export class DrawView {
     const { height, width, walls, start, goal } = this.draft;
     const isEnd = (r, c) => [start, goal].some((end) => end[0] === r && end[1] === c);
     if (this.tool === "start" || this.tool === "goal") {
-      if (isEnd(row, column)) return;
+      if (isEnd(row, column) || row < 0 || row >= height || column < 0 || column >= width) return;
       walls[row * width + column] = 0;
       this.draft[this.tool] = [row, column];
     } else {
@@ -206,7 +216,6 @@ export class DrawView {
         }
       }
     }
-    this.#draw();
   }
 
   #key(event) {
@@ -243,8 +252,8 @@ export class DrawView {
     if (this.draft) this.#draw();
   }
 
-  #import(text, name) {
-    this.complain(() => this.#replace(parseMaze(text, name)));
+  #import(text) {
+    this.complain(() => this.#replace(parseMaze(text)));
   }
 
   #empty(height, width) {
@@ -284,5 +293,5 @@ function deception({ walls, height, width, goal }, ways) {
     if (!beside.some((next) => isOnTheWay(next) && isNearer(next))) misled++;
   }
   const percent = ((100 * misled) / reachable).toFixed(0);
-  return `How deceptive: in ${percent} % of the cells that lead to the goal, every shortest way begins with a step away from it.`;
+  return `How deceptive: in ${percent} % of the cells that lead to the goal, every shortest way begins with a step away from the goal.`;
 }

@@ -22,7 +22,9 @@ export class DriveView {
     this.view = new MazeView({ class: "drive-maze" });
     this.play = makeButton("Play", () => (this.timer ? this.pause() : this.#start()), { class: "primary" });
     this.slider = make("input", { type: "range", min: 0, step: 1, oninput: () => this.#stand(this.slider.valueAsNumber) });
-    this.where = make("p", { class: "status", role: "status" });
+    this.where = make("p", { class: "status" });
+    this.said = make("p", { class: "unseen", role: "status" }); // the same, where it is not one of many
+    this.client = null; // evolves weights to start from
     this.outcome = make("p", { class: "outcome" });
     this.sliders = Array.from({ length: WEIGHTS }, (_, i) => this.#makeSlider(i));
     this.readings = SENSORS.map(() => make("td", { class: "number" }));
@@ -44,11 +46,12 @@ export class DriveView {
           "div",
           { class: "controls" },
           this.play,
-          makeButton("One step", () => this.#stand(this.step + 1)),
-          makeButton("Back to the start", () => this.#stand(0)),
+          makeButton("One step", () => this.#standAndSay(this.step + 1)),
+          makeButton("Back to the start", () => this.#standAndSay(0)),
         ),
         labelled("Step", this.slider, { class: "field wide" }),
         this.where,
+        this.said,
         this.outcome,
       ),
       make(
@@ -59,14 +62,14 @@ export class DriveView {
         make(
           "table",
           { class: "weights" },
-          make("caption", {}, "What the robot reads where it stands, and what each reading weighs"),
+          make("caption", {}, "What the robot reads where it stands: dist is how far the next wall is; goal is the size of the maze on the sides where the goal lies, and 0 on the others"),
           make(
             "thead",
             {},
             make(
               "tr",
               {},
-              ...["Sensor", "Reading", "in h: right, or left below 0", "in v: down, or up below 0"].map((text, i) =>
+              ...["Sensor", "Reading", "Weight in h (right if h ≥ 0, else left)", "Weight in v (down if v ≥ 0, else up)"].map((text, i) =>
                 make("th", { scope: "col", class: i === 1 ? "number" : null }, text),
               ),
             ),
@@ -92,11 +95,13 @@ export class DriveView {
   }
 
   show(names) {
+    if (names.includes("maze") || names.includes("controller")) this.#forget();
     if (names.some((name) => ["maze", "controller", "parameters", "view"].includes(name))) this.#walk();
   }
 
   /** Another view is shown from now on. */
   pause() {
+    if (this.timer) this.said.textContent = this.where.textContent;
     clearInterval(this.timer);
     this.timer = null;
     this.play.textContent = "Play";
@@ -104,6 +109,7 @@ export class DriveView {
 
   destroy() {
     this.pause();
+    this.#forget();
     this.view.destroy();
   }
 
@@ -136,13 +142,11 @@ export class DriveView {
   #weigh(i, weight) {
     const controller = [...this.store.state.controller];
     controller[i] = weight;
-    this.explained.textContent = "";
     this.store.set({ controller });
   }
 
   async #take(choice) {
     const maze = this.store.state.maze;
-    this.explained.textContent = "";
     if (choice === "random") {
       this.store.set({ controller: Array.from({ length: WEIGHTS }, () => Math.round(200 * Math.random() - 100) / 100) });
       return;
@@ -150,18 +154,31 @@ export class DriveView {
     const { explanation, controller, run } = PRESETS[choice];
     if (controller) this.store.set({ controller });
     else {
-      const client = new Client(this.makeWorker);
+      this.#forget();
+      this.explained.textContent = "Evolving …";
+      this.client = new Client(this.makeWorker);
       try {
-        const { controller: found } = await client.ask("evolve", { maze, parameters: {}, ...run(maze) });
+        const { controller: found } = await this.client.ask("evolve", { maze, parameters: {}, ...run(maze) });
         this.store.set({ controller: found });
       } catch (error) {
+        this.#forget();
         this.report(error);
         return;
-      } finally {
-        client.close();
       }
     }
     this.explained.textContent = explanation;
+  }
+
+  /** What was explained or is being evolved is of other weights, or of another maze. */
+  #forget() {
+    this.client?.close();
+    this.client = null;
+    this.explained.textContent = "";
+  }
+
+  #standAndSay(step) {
+    this.#stand(step);
+    this.said.textContent = this.where.textContent;
   }
 
   /** Work the path out, and show it. */

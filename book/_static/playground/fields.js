@@ -2,6 +2,7 @@
 
 import { nthSeed, readSeed, writeSeed } from "./address.js";
 import { ALGORITHMS, checkedParameters, PARAMETERS, PROBABILITIES } from "./algorithms.js";
+import { checkedInteger, MOST } from "./checks.js";
 import { labelled, make, makeSvg } from "./dom.js";
 
 const TITLES = {
@@ -12,14 +13,41 @@ const TITLES = {
   random: "Random search",
 };
 
+const ABOUT = {
+  standard: "rewards closeness to the goal",
+  novelty: "rewards ending where none has ended before",
+  safe: "evolves what to reward as well",
+  fixed: "rewards closeness and novelty, half and half",
+  random: "rewards nothing: new robots, drawn by chance",
+};
+const PARAMETER_TITLES = {
+  objectives: "objective functions",
+  tournament: "tournament size",
+  crossover: "crossover probability",
+  mutation: "mutation probability",
+  k: "k, nearest neighbours",
+  archive: "archive size",
+  success_distance: "success within, cells",
+};
+
 /** What an algorithm is called. */
-export function titleOf({ name }) {
-  return Object.hasOwn(TITLES, name) ? TITLES[name] : name;
+export function titleOf(algorithm) {
+  return isKnown(algorithm) ? TITLES[algorithm.name] : algorithm.name;
+}
+
+/** What an algorithm does, in a few words. */
+export function aboutOf(algorithm) {
+  return isKnown(algorithm) ? ABOUT[algorithm.name] : "judged by other objective functions";
 }
 
 /** The looks of an algorithm's dots and lines, as playground.css knows them. */
-export function kindOf({ name }) {
-  return Object.hasOwn(TITLES, name) ? name : "other";
+export function kindOf(algorithm) {
+  return isKnown(algorithm) ? algorithm.name : "other";
+}
+
+/** Is this one of ALGORITHMS, and not another by the same name? */
+function isKnown(algorithm) {
+  return ALGORITHMS[algorithm.name] === algorithm;
 }
 
 /** A sample of the line by which charts show an algorithm. */
@@ -33,14 +61,14 @@ export function makeAlgorithmChoice(store) {
   const choice = make("fieldset", { class: "chips" });
   const show = () => {
     const chosen = store.state.algorithms;
-    const all = [...Object.values(ALGORITHMS), ...chosen.filter(({ name }) => !Object.hasOwn(ALGORITHMS, name))];
+    const all = [...Object.values(ALGORITHMS), ...chosen.filter((algorithm) => !isKnown(algorithm))];
     const focused = choice.contains(document.activeElement) ? document.activeElement.value : null;
     choice.replaceChildren(
       make("legend", {}, "Algorithms"),
       ...all.map((algorithm) => {
-        const isChosen = chosen.some(({ name }) => name === algorithm.name);
+        const isChosen = chosen.includes(algorithm);
         const onchange = () => {
-          const rest = isChosen ? chosen.filter(({ name }) => name !== algorithm.name) : [...chosen, algorithm];
+          const rest = isChosen ? chosen.filter((other) => other !== algorithm) : [...chosen, algorithm];
           if (rest.length > 0) store.set({ algorithms: rest, generation: 0 });
           else show(); // one remains
         };
@@ -55,7 +83,7 @@ export function makeAlgorithmChoice(store) {
   return choice;
 }
 
-/** Fields of the seed: of a run of an experiment its number, otherwise the seed itself. */
+/** Fields of the seed and, of a run of an experiment, of its number. */
 export function makeSeedFields(store, complain) {
   const seed = make("input", { type: "text", size: 8, spellcheck: "false", autocomplete: "off" });
   const run = make("input", { type: "number", min: 0, max: 999999, step: 1 });
@@ -68,10 +96,10 @@ export function makeSeedFields(store, complain) {
   };
   const change = (read) => () => complain(() => store.set({ seed: read(), generation: 0 }), show);
   seed.addEventListener("change", change(() => readSeed(seed.value.trim())));
-  run.addEventListener("change", change(() => nthSeed(store.state.seed, run.valueAsNumber || 0)));
+  run.addEventListener("change", change(() => nthSeed(store.state.seed, checkedInteger("run", run.valueAsNumber, 0, MOST))));
   store.listen((names) => names.includes("seed") && show());
   show();
-  return [labelled("Seed", seed), runField];
+  return { seed: labelled("Seed", seed), run: runField };
 }
 
 /** Fields of all parameters, folded away. */
@@ -90,7 +118,7 @@ export function makeParameterFields(store, complain) {
     );
     store.listen((names) => names.includes("parameters") && show());
     show();
-    return labelled(name.replace("_", " "), field);
+    return labelled(PARAMETER_TITLES[name] ?? name, field);
   });
   return make("details", {}, make("summary", {}, "Parameters"), make("div", { class: "fields" }, ...fields));
 }

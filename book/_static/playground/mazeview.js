@@ -2,11 +2,13 @@
 
 import { make } from "./dom.js";
 
-// Radii: so many cells, but at least so many pixels.
-const DOT = [0.4, 1.6];
-const ROBOT = [0.45, 4.5];
-const RING = [0.6, 6];
-const STAR = [0.85, 10];
+// Radii: so many cells, but at least and at most so many pixels.
+const DOT = [0.4, 1.6, 6];
+const ROBOT = [0.45, 4.5, 10];
+const RING = [0.6, 6, 14];
+const STAR = [0.85, 10, 24];
+const LARGEST_SIDE = 4096; // pixels of a canvas; with many more, browsers show none
+const TALLEST = 85; // % of the window's height
 
 /** A picture of a maze. `show` takes what is to be seen, and draws it anew whenever its size or the theme changes. */
 export class MazeView {
@@ -15,6 +17,7 @@ export class MazeView {
     this.canvas = make("canvas", { role: "img", ...attributes });
     this.element = make("div", { class: "maze" }, this.canvas);
     this.scene = null;
+    this.frame = null;
     this.observer = new ResizeObserver(() => this.draw());
     this.observer.observe(this.canvas);
     this.themes = new MutationObserver(() => this.draw());
@@ -23,6 +26,7 @@ export class MazeView {
   }
 
   destroy() {
+    cancelAnimationFrame(this.frame);
     this.observer.disconnect();
     this.themes.disconnect();
   }
@@ -32,31 +36,39 @@ export class MazeView {
     this.scene = scene;
     const { height, width } = scene.maze;
     this.canvas.style.aspectRatio = `${width} / ${height}`;
+    this.canvas.style.maxWidth = `min(100%, ${(TALLEST * width) / height}vh)`;
     this.draw();
   }
 
-  /** The cell under a pointer. */
+  /** Draw with the next frame of the browser, however often one asks for it. */
+  draw() {
+    this.frame ??= requestAnimationFrame(() => {
+      this.frame = null;
+      this.#paint();
+    });
+  }
+
+  /** The cell under a pointer; outside the canvas one that the maze does not have. */
   cellAt(event) {
     const box = this.canvas.getBoundingClientRect(), { height, width } = this.scene.maze;
-    const along = (position, size, cells) => Math.min(Math.max(Math.floor((position / size) * cells), 0), cells - 1);
     return {
-      row: along(event.clientY - box.top, box.height, height),
-      column: along(event.clientX - box.left, box.width, width),
+      row: Math.floor(((event.clientY - box.top) / box.height) * height),
+      column: Math.floor(((event.clientX - box.left) / box.width) * width),
     };
   }
 
-  draw() {
+  #paint() {
     if (!this.scene || this.canvas.clientWidth === 0) return;
     const { maze, archive, ends, colour, trail, paths = [], robot, rays = [], links = [], marked, cursor } = this.scene;
     const style = getComputedStyle(this.canvas);
     const colourOf = (name) => style.getPropertyValue(`--${name}`);
-    const pixels = Math.round(this.canvas.clientWidth * devicePixelRatio);
+    const pixels = Math.min(this.canvas.clientWidth * devicePixelRatio, LARGEST_SIDE, (LARGEST_SIDE * maze.width) / maze.height);
     const scale = pixels / maze.width;
-    this.canvas.width = pixels;
+    this.canvas.width = Math.round(pixels);
     this.canvas.height = Math.round(scale * maze.height);
     const context = this.canvas.getContext("2d");
-    const [dot, body, ring, star] = [DOT, ROBOT, RING, STAR].map(([cells, least]) =>
-      Math.max(cells * scale, least * devicePixelRatio),
+    const [dot, body, ring, star] = [DOT, ROBOT, RING, STAR].map(([cells, least, most]) =>
+      Math.min(Math.max(cells * scale, least * devicePixelRatio), most * devicePixelRatio),
     );
     const centre = ([row, column]) => [(column + 0.5) * scale, (row + 0.5) * scale];
     const circle = (cell, radius, filled = true) => {
@@ -75,20 +87,15 @@ export class MazeView {
     };
 
     context.lineJoin = context.lineCap = "round";
-    context.fillStyle = colourOf("open");
-    context.fillRect(0, 0, pixels, this.canvas.height);
-    context.fillStyle = colourOf("wall");
-    maze.walls.forEach((wall, cell) => {
-      if (!wall) return;
-      const column = cell % maze.width, row = Math.floor(cell / maze.width);
-      const left = Math.round(column * scale), top = Math.round(row * scale);
-      context.fillRect(left, top, Math.round((column + 1) * scale) - left, Math.round((row + 1) * scale) - top);
-    });
+    context.imageSmoothingEnabled = false;
+    context.drawImage(pictureOf(maze, colourOf("open"), colourOf("wall")), 0, 0, this.canvas.width, this.canvas.height);
     context.fillStyle = colourOf("archive");
     for (const [cell] of counted(archive ?? [])) circle(cell, 0.8 * dot);
     context.strokeStyle = colourOf("trail");
     if (trail) line(trail, dot, [2 * dot, 2 * dot]);
     for (const { cells, colour: own = "path" } of paths) {
+      context.strokeStyle = colourOf("open"); // a rim, to be seen against a wall
+      line(cells, 2 * dot);
       context.strokeStyle = colourOf(own);
       line(cells, dot);
     }
@@ -130,6 +137,20 @@ export class MazeView {
     context.fill();
     context.stroke();
   }
+}
+
+/** The cells of a maze, a pixel each. Colours are #rrggbb. */
+function pictureOf({ walls, height, width }, open, wall) {
+  const picture = make("canvas", { width, height }), context = picture.getContext("2d");
+  const image = context.createImageData(width, height);
+  const [openPixel, wallPixel] = [open, wall].map((colour) => {
+    const [red, green, blue] = colour.trim().match(/[0-9a-f]{2}/gi).map((part) => parseInt(part, 16));
+    return ((255 << 24) | (blue << 16) | (green << 8) | red) >>> 0;
+  });
+  const pixels = new Uint32Array(image.data.buffer);
+  walls.forEach((isWall, cell) => (pixels[cell] = isWall ? wallPixel : openPixel));
+  context.putImageData(image, 0, 0);
+  return picture;
 }
 
 /** Cells, each once, with how often it occurs. */

@@ -1,6 +1,6 @@
 // The playground: SAFE to see and to play with, in a page of the book or in a notebook.
 
-import { isNamed, namedMaze, readAddress, readController, readSeed, writeAddress, writeSeed } from "./address.js";
+import { isNamed, known, namedMaze, readAddress, readController, readSeed, writeAddress, writeSeed } from "./address.js";
 import { ALGORITHMS } from "./algorithms.js";
 import { freshId, labelled, make, makeSelect } from "./dom.js";
 import { DrawView } from "./draw.js";
@@ -19,8 +19,9 @@ const TABS = [
   ["runs", "Many runs", "How often does it work, and how many runs does it take to be sure?"],
 ];
 const WELCOME =
-  "200 robots walk 300 steps each, from the ring towards the star. Every dot is where one of them ended. The fittest " +
-  "breed the next generation. This run is about to succeed: press Play.";
+  "200 robots start at the ring and walk 300 steps each. A green dot is where one of them ended, a faint one where an " +
+  "earlier one did. The star is the goal: a robot that ends within 2 cells of it is a success. The fittest breed the " +
+  "next generation, and soon one will succeed: press Play.";
 const WRITING = 250; // milliseconds after the last change until it is in the address
 
 /** What a first visit opens on: a run about to succeed. */
@@ -37,6 +38,7 @@ function usual() {
     seed: readSeed("0"),
     parameters: {},
     generation: 0,
+    runs: 50,
     controller: PRESETS[0].controller,
     result: null,
   };
@@ -56,6 +58,7 @@ export function mount(element, { state = {}, makeWorker, onChange = () => {}, ad
   const report = (error) => {
     problem.textContent = error.message;
     problem.hidden = false;
+    problem.scrollIntoView({ block: "nearest" });
   };
   /** Do something that may fail for what was put in; then say so, and restore what is shown. */
   const complain = (action, restore = () => {}) => {
@@ -100,23 +103,35 @@ export function mount(element, { state = {}, makeWorker, onChange = () => {}, ad
   let timer = null;
   const write = () => {
     timer = null;
-    address.history.replaceState(null, "", `#${writeAddress(store.state)}`);
+    try {
+      address.history.replaceState(null, "", `#${writeAddress(store.state)}`);
+    } catch {
+      timer = setTimeout(write, 10 * WRITING); // some browsers allow only so many in a while
+    }
   };
   const read = () => {
     if (addressed() === "") return;
     complain(() => {
       store.set({ ...usual(), ...readAddress(addressed()), result: null }, "outside");
-      root.scrollIntoView({ block: "nearest" });
+      root.scrollIntoView();
     });
+  };
+  /** A link to where one is already is no change of the address, and still to be followed. */
+  const follow = ({ target }) => {
+    const link = target.closest?.('a[href^="#"]');
+    if (link?.hash === address.location.hash) read();
   };
   store.listen((names, source) => {
     if (names.includes("view")) {
       for (const [name, view] of Object.entries(views)) if (name !== store.state.view) view.pause();
       showTab();
     }
+    if (names.some((name) => ["maze", "algorithms", "seed", "parameters"].includes(name))) {
+      problem.hidden = true;
+      welcome.hidden = true;
+    }
     for (const view of Object.values(views)) view.show(names);
     if (source !== "page") return;
-    welcome.hidden = true;
     const changes = toOutside(store.state, names);
     if (Object.keys(changes).length > 0) onChange(changes);
     if (address) {
@@ -125,6 +140,7 @@ export function mount(element, { state = {}, makeWorker, onChange = () => {}, ad
     }
   });
   address?.addEventListener("hashchange", read);
+  address?.addEventListener("click", follow);
 
   element.replaceChildren(root);
   showTab();
@@ -134,6 +150,7 @@ export function mount(element, { state = {}, makeWorker, onChange = () => {}, ad
     destroy() {
       clearTimeout(timer);
       address?.removeEventListener("hashchange", read);
+      address?.removeEventListener("click", follow);
       for (const view of Object.values(views)) view.destroy();
       root.remove();
     },
@@ -163,16 +180,13 @@ function toOutside(state, names) {
   return Object.fromEntries(names.filter((name) => name in shown).map((name) => [name, shown[name]()]));
 }
 
-/** A maze, by its name where it is one of MAZES. */
-function known(maze) {
-  return Object.keys(MAZES).map((name) => ({ ...maze, name })).find(isNamed) ?? maze;
-}
-
 function makeMazeChoice(store) {
   const names = Object.keys(MAZES);
-  const choice = makeSelect([...names.map((name) => [name, name]), ["drawn", "drawn"]], (name) =>
-    name === "drawn" ? store.set({ view: "draw" }) : store.set({ maze: namedMaze(name), generation: 0 }),
-  );
+  const choice = makeSelect([...names.map((name) => [name, name]), ["drawn", "one of your own"]], (name) => {
+    if (name !== "drawn") return store.set({ maze: namedMaze(name), generation: 0 });
+    store.set({ view: "draw" });
+    show();
+  });
   const show = () => (choice.value = isNamed(store.state.maze) ? store.state.maze.name : "drawn");
   store.listen((changed) => changed.includes("maze") && show());
   show();

@@ -1,15 +1,15 @@
 // Many runs: how often each algorithm succeeds, and how many runs it takes to be sure.
 
-import { nthSeed } from "./address.js";
+import { MOST_RUNS, nthSeed } from "./address.js";
 import { LineChart } from "./chart.js";
+import { checkedInteger } from "./checks.js";
 import { Client } from "./client.js";
-import { labelled, make, makeButton, makeSelect } from "./dom.js";
+import { labelled, make, makeButton } from "./dom.js";
 import { kindOf, makeAlgorithmChoice, makeParameterFields, makeSeedFields, makeSwatch, titleOf } from "./fields.js";
 import { wilsonInterval } from "./interval.js";
 
 const MOST_WORKERS = 8;
 const SETTINGS = ["maze", "algorithms", "seed", "parameters"];
-const COUNTS = [10, 20, 50, 100, 200, 500];
 
 export class RunsView {
   constructor(store, { complain, report, makeWorker }) {
@@ -21,37 +21,43 @@ export class RunsView {
     this.left = null; // { algorithms, seed } of these runs, while one of them, `opened` by its seed, is watched
     this.outcomes = []; // of each algorithm { algorithm, results }: by the number of the run, whether it succeeded
     this.turn = 0;
-    this.count = 50;
     this.button = makeButton("Run", () => (this.isRunning ? this.pause() : this.#start()), { class: "primary" });
     this.chart = new LineChart("Success in %, with its 95 % interval", "runs");
-    this.status = make("p", { class: "note", role: "status" });
+    this.verdict = make("p", { class: "note" });
+    this.status = make("p", { class: "unseen", role: "status" }); // tells the verdict at the end, to those who hear it
     this.body = make("tbody");
-    const counts = makeSelect(COUNTS.map((count) => [count, `${count} runs`]), (count) => {
-      this.count = Number(count);
-      this.#draw();
-    });
-    counts.value = this.count;
+    const count = make("input", { type: "number", min: 1, max: MOST_RUNS, step: 1 });
+    const showCount = () => (count.value = store.state.runs);
+    count.addEventListener("change", () =>
+      complain(() => store.set({ runs: checkedInteger("runs", count.valueAsNumber, 1, MOST_RUNS) }), showCount),
+    );
+    store.listen((names) => names.includes("runs") && showCount());
+    showCount();
     this.element = make(
       "div",
       {},
-      make("div", { class: "controls" }, this.button, labelled("of each algorithm", counts)),
+      make("div", { class: "controls" }, this.button, labelled("runs of each algorithm", count)),
       make(
         "div",
         { class: "controls" },
         makeAlgorithmChoice(store),
-        ...makeSeedFields(store, complain),
+        makeSeedFields(store, complain).seed,
         makeParameterFields(store, complain),
       ),
       make(
         "p",
         { class: "note" },
-        "Runs count in the order of their seeds, each as soon as all before it are over: failures take longest, so counting runs as they finish would flatter everyone.",
+        "The first run has the seed above, the next one the seed after it, and so on. A run is counted once all before " +
+          "it are over: failures take longest, and would otherwise be counted too late. Intervals are Wilson's. Whoever " +
+          "looks after every run and stops when they part will find differences that are not there: decide first how many " +
+          "runs to make.",
       ),
+      this.verdict,
       this.status,
       make("div", { class: "charts single" }, this.chart.element),
       make(
         "div",
-        { class: "scroll" },
+        { class: "scroll", role: "region", "aria-label": "Runs so far", tabindex: 0 },
         make(
           "table",
           { class: "outcomes" },
@@ -77,6 +83,7 @@ export class RunsView {
   show() {
     const { state } = this.store;
     if (state.view !== "runs") return;
+    this.#draw();
     const { left } = this;
     this.left = null;
     if (left?.opened === state.seed) this.store.set({ algorithms: left.algorithms, seed: left.seed });
@@ -84,6 +91,7 @@ export class RunsView {
       this.pause();
       this.settings = Object.fromEntries(SETTINGS.map((name) => [name, state[name]]));
       this.outcomes = [];
+      this.body.replaceChildren();
       this.#draw();
     }
   }
@@ -106,15 +114,16 @@ export class RunsView {
 
   async #start() {
     const { algorithms } = this.settings;
-    if (this.outcomes.length === 0) this.outcomes = algorithms.map((algorithm) => ({ algorithm, results: [] }));
+    if (this.outcomes.length === 0) {
+      this.outcomes = algorithms.map((algorithm) => ({ algorithm, results: [], row: this.#makeRow(algorithm) }));
+      this.body.replaceChildren(...this.outcomes.map(({ row }) => row.element));
+    }
+    this.status.textContent = "";
     const waiting = [];
-    for (let number = 0; number < this.count; number++) {
+    for (let number = 0; number < this.store.state.runs; number++) {
       for (const outcome of this.outcomes) if (outcome.results[number] === undefined) waiting.push([outcome, number]);
     }
-    if (waiting.length === 0) {
-      this.#draw();
-      return;
-    }
+    if (waiting.length === 0) return;
     const { turn } = this;
     const workers = Math.min(MOST_WORKERS, navigator.hardwareConcurrency || 2, waiting.length);
     this.clients = Array.from({ length: workers }, () => new Client(this.makeWorker));
@@ -124,7 +133,9 @@ export class RunsView {
     } catch (error) {
       if (turn === this.turn) this.report(error);
     }
-    if (turn === this.turn) this.pause();
+    if (turn !== this.turn) return;
+    this.pause();
+    this.status.textContent = this.verdict.textContent;
   }
 
   /** Let a worker make one run after the other, until none waits. */
@@ -141,7 +152,7 @@ export class RunsView {
   }
 
   #draw() {
-    const counted = this.outcomes.map(({ algorithm, results }) => ({ algorithm, ...tally(results) }));
+    const counted = this.outcomes.map((outcome) => ({ ...outcome, steps: tally(outcome.results) }));
     this.chart.show(
       counted.map(({ algorithm, steps }) => ({
         label: titleOf(algorithm),
@@ -150,37 +161,38 @@ export class RunsView {
         band: steps.map(({ runs, low, high }) => [runs, 100 * low, 100 * high]),
       })),
       100,
-      this.count,
+      this.store.state.runs,
     );
-    this.body.replaceChildren(
-      ...counted.map(({ algorithm, steps, results }) => {
-        const { runs = 0, successes = 0, low = 0, high = 1 } = steps.at(-1) ?? {};
-        const numbers = [
-          runs,
-          successes,
-          runs > 0 ? `${((100 * successes) / runs).toFixed(0)} %` : "–",
-          `${(100 * low).toFixed(0)} to ${(100 * high).toFixed(0)} %`,
-        ];
-        return make(
-          "tr",
-          {},
-          make("th", { scope: "row" }, makeSwatch(algorithm), titleOf(algorithm)),
-          ...numbers.map((number) => make("td", { class: "number" }, String(number))),
-          make("td", {}, ...[["a success", true], ["a failure", false]].map(([text, success]) => this.#opener(text, algorithm, results.indexOf(success)))),
-        );
-      }),
-    );
-    this.status.textContent = verdicts(counted);
+    for (const { row, steps, results } of counted) {
+      const { runs = 0, successes = 0, low = 0, high = 1 } = steps.at(-1) ?? {};
+      const numbers = [runs, successes, runs > 0 ? `${percent(successes / runs)} %` : "–", `${percent(low)} to ${percent(high)} %`];
+      numbers.forEach((number, i) => (row.cells[i].textContent = number));
+      for (const { button, success } of row.openers) button.disabled = !results.includes(success);
+    }
+    this.verdict.textContent = verdicts(counted);
   }
 
-  #opener(text, algorithm, number) {
-    const open = () => {
-      const { algorithms, seed } = this.settings;
-      const opened = nthSeed(seed, number);
-      this.left = { algorithms, seed, opened };
-      this.store.set({ algorithms: [algorithm], seed: opened, generation: 0, view: "watch" });
-    };
-    return makeButton(text, open, { disabled: number < 0, "aria-label": `Watch ${text} of ${titleOf(algorithm)}` });
+  /** A row of the table, which stays while its texts change, so that nobody loses the button under the finger. */
+  #makeRow(algorithm) {
+    const cells = Array.from({ length: 4 }, () => make("td", { class: "number" }));
+    const openers = [["a success", true], ["a failure", false]].map(([text, success]) => {
+      const open = () => {
+        const { results } = this.outcomes.find((outcome) => outcome.algorithm === algorithm);
+        const { algorithms, seed } = this.settings;
+        const opened = nthSeed(seed, results.indexOf(success));
+        this.left = { algorithms, seed, opened };
+        this.store.set({ algorithms: [algorithm], seed: opened, generation: 0, view: "watch" });
+      };
+      return { success, button: makeButton(text, open, { "aria-label": `Watch ${text} of ${titleOf(algorithm)}` }) };
+    });
+    const element = make(
+      "tr",
+      {},
+      make("th", { scope: "row" }, makeSwatch(algorithm), titleOf(algorithm)),
+      ...cells,
+      make("td", {}, ...openers.map(({ button }) => button)),
+    );
+    return { element, cells, openers };
   }
 }
 
@@ -193,7 +205,12 @@ function tally(results) {
     const [low, high] = wilsonInterval(successes, runs);
     steps.push({ runs, successes, low, high });
   }
-  return { steps, results };
+  return steps;
+}
+
+/** A share in %, with a decimal where it is small. */
+function percent(share) {
+  return (100 * share).toFixed(share > 0 && share < 0.1 ? 1 : 0);
 }
 
 /** Of each pair of algorithms: since which run their intervals have been apart. */
@@ -210,7 +227,7 @@ function verdicts(counted) {
       sentences.push(
         since < runs
           ? `${pair}: their intervals have been apart since run ${since + 1}.`
-          : `${pair}: after ${runs} runs their intervals overlap.`,
+          : `${pair}: after ${runs} runs their intervals overlap, which does not show that they are equal.`,
       );
     }
   });

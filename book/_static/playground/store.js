@@ -1,6 +1,6 @@
 // What all parts of a playground share: its state, and who wants to know of changes.
 
-/** state: { view, maze, algorithms, seed, parameters, generation, controller, result }. */
+/** state: { view, maze, algorithms, seed, parameters, generation, runs, controller, result }. */
 export class Store {
   constructor(state) {
     this.state = state;

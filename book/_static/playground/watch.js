@@ -2,12 +2,14 @@
 
 import { PARAMETERS } from "./algorithms.js";
 import { LineChart, ObjectiveSquare } from "./chart.js";
+import { checkedInteger, MOST } from "./checks.js";
 import { labelled, make, makeButton, makeSelect, prefersLessMotion } from "./dom.js";
 import { cellsText } from "./drive.js";
 import { kindOf, makeAlgorithmChoice, makeParameterFields, makeSeedFields, number3, titleOf } from "./fields.js";
 import { Panel } from "./panel.js";
 
 const SPEEDS = [1, 2, 5, 10, 30, 100, Infinity]; // generations a second
+const MOST_SUMMANDS = 30; // of a novelty that are written out
 const FRAME = 40; // milliseconds between two pictures, at the least
 const CALM_FRAME = 1000; // the same, where the reader asks for less motion
 
@@ -28,12 +30,14 @@ export class WatchView {
     this.play = makeButton("Play", () => (this.isPlaying ? this.pause() : this.#start()), { class: "primary" });
     this.single = makeButton("One generation", () => this.#stepOnce());
     this.generation = make("input", { type: "number", min: 0, step: 1, value: 0 });
-    this.generation.addEventListener("change", () => {
-      const asked = Math.max(0, Math.round(this.generation.valueAsNumber || 0));
-      this.store.set({ generation: asked });
-    });
+    this.generation.addEventListener("change", () =>
+      complain(
+        () => this.store.set({ generation: checkedInteger("generation", this.generation.valueAsNumber, 0, MOST) }),
+        () => (this.generation.value = this.#shown()),
+      ),
+    );
     const told = make("output");
-    this.speed = make("input", { type: "range", min: 0, max: SPEEDS.length - 1, step: 1, value: 2 });
+    this.speed = make("input", { type: "range", min: 0, max: SPEEDS.length - 1, step: 1, value: 3 });
     const tell = () => {
       const speed = SPEEDS[this.speed.valueAsNumber];
       told.value = speed === Infinity ? "as fast as it can" : `${speed} a second`;
@@ -41,7 +45,8 @@ export class WatchView {
     };
     this.speed.addEventListener("input", tell);
     tell();
-    this.status = make("p", { class: "note", role: "status" });
+    this.status = make("p", { class: "unseen", role: "status" }); // tells all results to those who hear it
+    this.replayed = make("p", { class: "note" });
     this.row = make("div", { class: "panels" });
     this.charts = {
       distance: new LineChart("Best distance, in cells", "generation"),
@@ -66,9 +71,10 @@ export class WatchView {
         "div",
         { class: "controls" },
         makeAlgorithmChoice(store),
-        ...makeSeedFields(store, complain),
+        ...Object.values(makeSeedFields(store, complain)),
         makeParameterFields(store, complain),
       ),
+      this.replayed,
       this.status,
       make(
         "div",
@@ -120,21 +126,25 @@ export class WatchView {
     this.isPlaying = false;
     this.play.textContent = "Play";
     this.looked = null;
+    const [run] = seed.spawnKey;
+    this.replayed.textContent =
+      run === undefined ? "" : `Run ${run} of an experiment (those of the book have runs 0 to 499). Change Run to see the others.`;
     const { turn } = this;
     const ondrive = (controller) => this.store.set({ controller, view: "drive" });
     this.panels = algorithms.map(
       (algorithm, i) =>
-        new Panel(algorithm, this.makeWorker, { onpick: (individual) => this.#look(i, individual), ondrive }),
+        new Panel(algorithm, this.makeWorker, { onpick: (cell) => this.#look(i, (panel) => panel.nearest(cell)), ondrive }),
     );
     this.row.replaceChildren(...this.panels.map(({ element }) => element));
     this.row.setAttribute("aria-busy", "true");
-    this.ready = Promise.all(this.panels.map((panel) => panel.start(maze, seed, parameters, generation)));
+    this.ready = this.work = Promise.all(this.panels.map((panel) => panel.start(maze, seed, parameters, generation)));
     await this.#until(this.ready, turn);
     if (turn !== this.turn) return;
     this.row.removeAttribute("aria-busy");
     this.#draw();
     if (this.#isOver) this.#tellResults();
     else this.status.textContent = "";
+    if (this.#shown() !== generation) this.#keep(); // the run was over before
   }
 
   /** Wait for workers, and tell what goes wrong in them. */
@@ -189,7 +199,8 @@ export class WatchView {
   }
 
   async #advance(generations, milliseconds, turn) {
-    await this.#until(Promise.all(this.panels.map((panel) => panel.advance(generations, milliseconds))), turn);
+    this.work = Promise.all(this.panels.map((panel) => panel.advance(generations, milliseconds)));
+    await this.#until(this.work, turn);
     if (turn !== this.turn) return;
     this.looked = null;
     this.#draw();
@@ -225,13 +236,18 @@ export class WatchView {
     this.#drawInspector();
   }
 
-  async #look(i, individual) {
-    if (this.isPlaying) this.pause();
+  /** Look at the solution of the i-th algorithm that `pick` names, in the generation that is there once all rest. */
+  async #look(i, pick) {
+    this.pause();
     const panel = this.panels[i], { turn } = this;
-    const inspected = await panel.inspect(individual);
+    await this.#until(this.work, turn);
     if (turn !== this.turn) return;
-    this.looked = { panel, individual, inspected };
-    this.#draw();
+    const individual = pick(panel);
+    await this.#until(
+      panel.inspect(individual).then((inspected) => (this.looked = { panel, individual, inspected })),
+      turn,
+    );
+    if (turn === this.turn) this.#draw();
   }
 
   #drawInspector() {
@@ -241,22 +257,22 @@ export class WatchView {
     this.told = told;
     const number = make("input", {
       type: "number",
-      min: 1,
-      max: panels[0].now.ends.length,
+      min: 0,
+      max: panels[0].now.ends.length - 1,
       step: 1,
-      value: looked ? looked.individual + 1 : "",
+      value: looked ? looked.individual : "",
     });
     const choice = makeSelect(panels.map(({ algorithm }, i) => [i, titleOf(algorithm)]), () => look());
     if (looked) choice.value = panels.indexOf(looked.panel);
     const look = () => {
-      const n = Math.round(number.valueAsNumber || 1);
-      this.#look(Number(choice.value), Math.min(Math.max(n, 1), panels[0].now.ends.length) - 1);
+      const n = Math.max(0, Math.round(number.valueAsNumber || 0));
+      this.#look(Number(choice.value), ({ now }) => Math.min(n, now.ends.length - 1));
     };
     number.addEventListener("change", look);
     const had = this.inspector.contains(document.activeElement) ? document.activeElement.tagName : null;
     this.inspector.replaceChildren(
       make("h2", {}, "One robot"),
-      make("p", { class: "note" }, "Click where one ended, or give its number in the generation."),
+      make("p", { class: "note" }, "Click where one ended, or give its number in the generation, counted from 0."),
       make("div", { class: "controls" }, labelled("Robot", number), ...(panels.length > 1 ? [labelled("of", choice)] : [])),
       ...(looked ? this.#describe(looked) : []),
     );
@@ -265,26 +281,29 @@ export class WatchView {
 
   #describe({ individual, inspected }) {
     const { endpoint, distance, novelty, neighbours, fitness, coefficients, winner, fromGoal, fromNovelty } = inspected;
-    const lines = [`Robot ${individual + 1} ended at row ${endpoint[0]}, column ${endpoint[1]}, ${cellsText(distance)} from the goal.`];
+    const lines = [`Robot ${individual} ended at row ${endpoint[0]}, column ${endpoint[1]}, ${cellsText(distance)} from the goal.`];
     if (novelty !== null) {
       const own = neighbours.filter(({ from }) => from === "population").length;
       const all = neighbours.map((neighbour) => neighbour.distance);
+      const summands = all.slice(0, MOST_SUMMANDS).join(" + ") + (all.length > MOST_SUMMANDS ? " + …" : "");
       lines.push(
-        `Novelty ${number3(novelty)}: the distances to its ${neighbours.length} nearest neighbours, ${own} of its own ` +
-          `generation and ${neighbours.length - own} of the archive, add up to ${all.reduce((a, b) => a + b, 0)} ` +
-          `(${all.join(" + ")}), over k = ${this.store.state.parameters.k ?? PARAMETERS.k}.`,
+        `Novelty ${number3(novelty)}: its nearest neighbours, ${own} of its own generation and ` +
+          `${neighbours.length - own} of the archive, are at distances that add up to ` +
+          `${all.reduce((a, b) => a + b, 0)} (${summands}); that over k = ${this.store.state.parameters.k ?? PARAMETERS.k}.`,
       );
     }
     const parts = [];
     if (fitness !== null) {
-      const share = fitness === 0 ? 0 : fromGoal / fitness;
-      const percent = `${(100 * share).toFixed(1)} %`, rest = `${(100 * (1 - share)).toFixed(1)} %`;
+      const hasShares = Math.min(fromGoal, fromNovelty) >= 0 && fitness > 0; // not so with negative weights
+      const share = fromGoal / fitness;
+      const [percent, rest] = [share, 1 - share].map((part) => `${(100 * part).toFixed(1)} %`);
+      const inWords = (text) => (hasShares ? ` (${text})` : "");
       lines.push(
-        `Fitness ${number3(fitness)}, by objective function ${winner + 1} with a = ${number3(coefficients[0])} and ` +
-          `b = ${number3(coefficients[1])}: ${number3(fromGoal)} for being near the goal (${percent}) and ` +
-          `${number3(fromNovelty)} for novelty (${rest}).`,
+        `Fitness ${number3(fitness)}, by objective function ${winner} with a = ${number3(coefficients[0])} and ` +
+          `b = ${number3(coefficients[1])}: ${number3(fromGoal)} for being near the goal${inWords(percent)} and ` +
+          `${number3(fromNovelty)} for novelty${inWords(rest)}.`,
       );
-      parts.push(
+      if (hasShares) parts.push(
         make(
           "div",
           { class: "shares", role: "img", "aria-label": `Of its fitness, ${percent} is goal and ${rest} novelty` },
@@ -308,7 +327,8 @@ function makeLegend() {
     ["dot", "where robots of this generation ended (larger: several)"],
     ["faint", "archive"],
     ["stroke", "path of the best robot so far"],
-    ["dashes", "where the best so far ended, one after the other"],
+    ["dashes", "how its end moved from generation to generation"],
+    ["looked", "the robot looked at, and its nearest neighbours"],
   ];
   return make(
     "ul",

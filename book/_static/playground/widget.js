@@ -21,12 +21,15 @@ export function renderWidget(model, element, makeWorker) {
       model.save_changes();
     },
   });
+  const keep = (event) => event.stopPropagation(); // keys mean something else to a notebook: d d deletes a cell
+  element.addEventListener("keydown", keep);
   const listeners = SHARED.map((key) => [`change:${key}`, () => {
     if (!isTelling) view.update({ [key]: structuredClone(model.get(key)) });
   }]);
   for (const [event, listener] of listeners) model.on(event, listener);
   return () => {
     for (const [event, listener] of listeners) model.off(event, listener);
+    element.removeEventListener("keydown", keep);
     view.destroy();
   };
 }

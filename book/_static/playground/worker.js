@@ -9,10 +9,10 @@ import { WEIGHTS } from "./robot.js";
 export function serve(scope) {
   let evolution = null;
   const tasks = {
-    /** A run, from its first generation to a given one. */
-    start({ maze, algorithm, seed, parameters, generation }) {
+    /** The first generation of a run. */
+    start({ maze, algorithm, seed, parameters }) {
       evolution = new Evolution(maze, algorithm, seed, parameters);
-      return report(evolution, generation + 1);
+      return report(evolution, 1);
     },
     /** So many further generations, or fewer where they take longer than some milliseconds. */
     advance({ generations, milliseconds }) {
