@@ -36,6 +36,22 @@ def serving(folder):
             server.shutdown()
 
 
+def complaints_of(page, here, logged=("error",)):
+    """A list, to which is added what goes wrong in a page: what it logs as one of these kinds, errors that nobody
+    caught, answers that say so, and requests to addresses that do not begin with one of `here`."""
+    complaints = []
+
+    def add_where(is_wrong, complaint):
+        if is_wrong:
+            complaints.append(complaint)
+
+    page.on("console", lambda message: add_where(message.type in logged, f"{message.text} {message.location}"))
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.on("request", lambda request: add_where(not request.url.startswith(here), request.url))
+    page.on("response", lambda answer: add_where(answer.status >= 400, f"{answer.status} {answer.url}"))
+    return complaints
+
+
 @contextmanager
 def chromium():
     """A browser, without a window."""

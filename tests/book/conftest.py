@@ -8,9 +8,12 @@ from pathlib import Path
 
 import pytest
 
+from tests.browser import chromium, serving
+
 ROOT = Path(__file__).parents[2]
 RUNS = "4"
 PARTS = ["_config.yml", "benchmarks", "book", "notebooks", "safe"]
+DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 800}
 
 
 def call(folder, *command, runs=RUNS):
@@ -46,3 +49,21 @@ def checkout(tmp_path_factory):
     built = build(folder)
     assert built.returncode == 0, output_of(built)
     return folder
+
+
+@pytest.fixture(scope="session")
+def html(checkout):
+    return checkout / "_build" / "html"
+
+
+@pytest.fixture(scope="package")
+def site(html):
+    """The address of the built book, served on this machine."""
+    with serving(html) as address:
+        yield address
+
+
+@pytest.fixture(scope="package")  # as long as it is open, no other can be, nor anything run by asyncio
+def browser():
+    with chromium() as browser:
+        yield browser

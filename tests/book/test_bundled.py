@@ -4,11 +4,10 @@ import json
 
 from safe import bundle
 from tests.book.conftest import execute, output_of
-from tests.browser import chromium, needs_browser
+from tests.browser import complaints_of, needs_browser
 
 
-def test_its_page_alone_loads_it(checkout):
-    html = checkout / "_build" / "html"
+def test_its_page_alone_loads_it(html):
     for file in ("bundle.js", "playground.css"):
         loaded_by = [page for page in html.rglob("*.html") if f"_static/playground/{file}" in page.read_text()]
         assert loaded_by == [html / "book" / "playground.html"]
@@ -16,15 +15,14 @@ def test_its_page_alone_loads_it(checkout):
 
 
 @needs_browser
-def test_it_works_in_a_page_opened_as_a_file(checkout):
-    with chromium() as browser:
-        page = browser.new_page()
-        complaints = []
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        page.goto((checkout / "_build/html/book/playground.html").as_uri() + "#seed=4&generation=20")
-        page.get_by_role("button", name="Play", exact=True).click()
-        page.get_by_role("status").filter(has_text="Success in generation").wait_for()
-        assert complaints == []
+def test_it_works_in_a_page_opened_as_a_file(browser, html):
+    page = browser.new_page()
+    complaints = complaints_of(page, (html.as_uri(), "blob:", "data:"), logged=())  # files are given no fonts
+    page.goto((html / "book" / "playground.html").as_uri() + "#seed=4&generation=20")
+    page.get_by_role("button", name="Play", exact=True).click()
+    page.get_by_role("status").filter(has_text="Success in generation").wait_for()
+    page.close()
+    assert complaints == []
 
 
 def test_a_picture_stands_for_the_widget(checkout):

@@ -5,6 +5,7 @@ import html
 import json
 import re
 import sqlite3
+from contextlib import closing
 from urllib.parse import urljoin
 
 import pytest
@@ -126,7 +127,7 @@ def test_the_run_that_a_link_says_is_the_one_in_the_results(checkout, linked):
         {address for _, links in rows for address in addresses_of(links) if address.startswith("view=watch")}
     )
     assert len(every) >= 10
-    with sqlite3.connect(checkout / "results.sqlite") as results:
+    with closing(sqlite3.connect(checkout / "results.sqlite")) as results:
         for address in every:
             entropy, number = values_of(address)["seed"].split("/")
             (found,) = results.execute(
@@ -144,7 +145,7 @@ def test_the_run_that_a_link_says_is_the_one_in_the_results(checkout, linked):
 def test_a_row_leads_to_the_first_run_that_succeeded_or_else_to_run_0(checkout, linked):
     for row, links in linked["tab-success"]:
         ((text, link),) = links
-        with sqlite3.connect(checkout / "results.sqlite") as results:
+        with closing(sqlite3.connect(checkout / "results.sqlite")) as results:
             ((first,),) = results.execute(
                 "SELECT min(run) FROM runs JOIN experiments ON runs.experiment = experiments.id"
                 " WHERE digest = ? AND success AND run < ?",

@@ -6,27 +6,12 @@ from urllib.parse import unquote, urljoin, urlparse
 
 import pytest
 
-from tests.browser import chromium, needs_browser, serving
-
-DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 800}
-
-
-@pytest.fixture(scope="module")
-def site(checkout):
-    """The address of the built book, served on this machine."""
-    with serving(checkout / "_build" / "html") as address:
-        yield address
+from tests.book.conftest import DESKTOP, PHONE
+from tests.browser import complaints_of, needs_browser
 
 
 @pytest.fixture(scope="module")
-def browser():
-    with chromium() as browser:
-        yield browser
-
-
-@pytest.fixture(scope="module")
-def names(checkout):
-    html = checkout / "_build" / "html"
+def names(html):
     return sorted(str(page.relative_to(html)) for page in html.rglob("*.html") if "_static" not in page.parts)
 
 
@@ -36,14 +21,7 @@ def names(checkout):
 def test_every_page_without_an_error_a_request_elsewhere_or_a_scroll_bar(site, browser, names, viewport, scheme):
     context = browser.new_context(viewport=viewport, color_scheme=scheme)
     page = context.new_page()
-    complaints = []
-    page.on("console", lambda message: message.type == "error" and complaints.append(message.text))
-    page.on("pageerror", lambda error: complaints.append(str(error)))
-    here = (site, f"blob:{site}", "data:")
-    page.on("request", lambda request: request.url.startswith(here) or complaints.append(request.url))
-    page.on(
-        "response", lambda response: response.status < 400 or complaints.append(f"{response.status} {response.url}")
-    )
+    complaints = complaints_of(page, (site, f"blob:{site}", "data:"))
     for name in names:
         # to wait until nothing is loaded any more takes half a second: once a page, and where a page leads to another
         is_patient = (viewport, scheme) == (DESKTOP, "light") or name == "index.html"
@@ -76,8 +54,7 @@ def test_the_replay_plays(site, browser):
     page.close()
 
 
-def test_every_link_within_the_book_leads_somewhere(checkout, names):
-    html = checkout / "_build" / "html"
+def test_every_link_within_the_book_leads_somewhere(html, names):
     anchors = {name: set(re.findall(r'\bid="([^"]+)"', (html / name).read_text())) for name in names}
     for name in names:
         for link in re.findall(r'<a [^>]*href="([^"]+)"', (html / name).read_text()):

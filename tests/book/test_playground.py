@@ -1,6 +1,5 @@
 """The playground's page in a browser, as a reader uses it; whatever it computes is held against the package."""
 
-import base64
 import re
 from pathlib import Path
 from urllib.parse import quote
@@ -12,61 +11,34 @@ from axe_playwright_python.sync_playwright import Axe
 import safe
 from safe import address, comparison, statistics
 from safe.maze import ways_to_goal
-from tests.browser import chromium, needs_browser, serving
+from tests.book.conftest import DESKTOP, PHONE
+from tests.browser import complaints_of, needs_browser
+from tests.test_address import maze_of, run_at
 
 pytestmark = needs_browser
 
-DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 800}
 LARGEST = 150_000  # bytes of script and stylesheet
-VIEWS = ("watch", "drive", "draw", "runs")
+VIEWS = {"watch": "Watch", "drive": "Drive", "draw": "Draw", "runs": "Many runs"}
 QUICK = "population=20&objectives=20&generations=30"
 QUICK_PARAMETERS = safe.Parameters(population=20, objectives=20, generations=30)
-
-
-@pytest.fixture(scope="module")
-def html(checkout):
-    return checkout / "_build" / "html"
-
-
-@pytest.fixture(scope="module")
-def site(html):
-    with serving(html) as address:
-        yield address
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium() as browser:
-        yield browser
 
 
 @pytest.fixture
 def visit(browser, site):
     """Opens the playground at an address, as a reader would; nothing that goes wrong on the way is let pass."""
-    contexts, complaints = [], []
+    visits = []
 
     def open_page(fragment="", viewport=DESKTOP, page_name="book/playground.html", **options):
         context = browser.new_context(viewport=viewport, **options)
-        contexts.append(context)
         page = context.new_page()
-        page.on(
-            "console",
-            lambda message: (
-                message.type in ("error", "warning") and complaints.append(f"{message.text} {message.location}")
-            ),
-        )
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        page.on(
-            "request",
-            lambda request: request.url.startswith((site, "blob:", "data:")) or complaints.append(request.url),
-        )
+        visits.append((context, complaints_of(page, (site, f"blob:{site}", "data:"), ("error", "warning"))))
         page.goto(f"{site}{page_name}" + (f"#{fragment}" if fragment else ""))
         return page
 
     yield open_page
-    for context in contexts:
+    for context, _ in visits:
         context.close()
-    assert complaints == []
+    assert [complaint for _, complaints in visits for complaint in complaints] == []
 
 
 def panel(page, title):
@@ -82,7 +54,7 @@ def play_to_the_end(page, *titles):
     page.get_by_role("button", name="Play").wait_for()
 
 
-def told(run):
+def status_of(run):
     """A run that is over, as the page tells it."""
     cells = "1 cell" if run.distance == 1 else f"{run.distance} cells"
     start = "Success" if run.success else "No success"
@@ -97,7 +69,7 @@ def told(run):
 
 def address_of(page):
     """What is in the address, once it says what the page shows."""
-    page.wait_for_timeout(400)
+    page.evaluate("new Promise((done) => setTimeout(done, 250))")  # set after the page's own timer, and as long
     fragment = page.evaluate("decodeURIComponent(location.hash.slice(1))")
     return [tuple(part.split("=", 1)) for part in fragment.split("&")]
 
@@ -107,13 +79,21 @@ def driven(page):
     return [float(weight) for weight in dict(address_of(page))["controller"].split(",")]
 
 
-def maze_of(parts):
-    """The maze that an address gives by its cells."""
-    size, start, goal, bits = dict(parts)["maze"].split("/")
-    height, width = map(int, size.split("x"))
-    packed = np.frombuffer(base64.urlsafe_b64decode(bits + "=" * (-len(bits) % 4)), dtype=np.uint8)
-    walls = np.unpackbits(packed)[: height * width].reshape(height, width).astype(bool)
-    return safe.Maze(walls, tuple(map(int, start.split(","))), tuple(map(int, goal.split(","))))
+def maze_at(page):
+    """The maze that is in the address of a page that draws."""
+    return maze_of(dict(address_of(page))["maze"])
+
+
+def wait_for_view(page, view):
+    """Wait until a view shows what it has to show."""
+    page.get_by_role("tab", name=VIEWS[view], selected=True).wait_for()
+    shown = {
+        "watch": "Generation",
+        "drive": "After 300 steps",
+        "draw": "The goal can be reached",
+        "runs": "Runs so far",
+    }
+    page.get_by_role("tabpanel").get_by_text(shown[view]).locator("visible=true").first.wait_for()
 
 
 # Watch
@@ -125,7 +105,7 @@ def test_a_first_visit_opens_on_a_run_about_to_succeed(visit):
     assert "press Play" in page.locator(".welcome").inner_text()
     page.get_by_role("button", name="Play").click()
     panel(page, "SAFE").get_by_text("Success").wait_for()
-    assert panel(page, "SAFE").inner_text() == told(safe.evolve("maze1", "safe", 3))
+    assert panel(page, "SAFE").inner_text() == status_of(safe.evolve("maze1", "safe", 3))
 
 
 def test_algorithms_side_by_side_are_those_of_the_package(visit):
@@ -135,7 +115,7 @@ def test_algorithms_side_by_side_are_those_of_the_package(visit):
     play_to_the_end(page, *names)
     for title, name in names.items():
         run = safe.evolve("maze2", name, 5, QUICK_PARAMETERS)
-        assert panel(page, title).inner_text() == told(run)
+        assert panel(page, title).inner_text() == status_of(run)
         page.get_by_role("region", name=title).get_by_role("button", name="Drive the best").click()
         assert driven(page) == list(run.controller)
         page.get_by_role("tab", name="Watch").click()
@@ -162,11 +142,12 @@ def test_playing_can_be_paused_and_goes_on(visit):
     page.get_by_role("button", name="Play").click()
     page.wait_for_function("document.querySelector('.panel .status').textContent.match(/\\d+/)[0] > 5")
     page.get_by_role("button", name="Pause").click()
+    page.wait_for_function("location.hash.includes('&generation=')")  # once the one in the making is there
     page.get_by_role("button", name="Play").wait_for()
     reached = int(dict(address_of(page))["generation"])
     assert f"Generation {reached}:" in panel(page, "Standard EA").inner_text()
     play_to_the_end(page, "Standard EA")
-    assert panel(page, "Standard EA").inner_text() == told(safe.evolve("maze1", "standard", 1))
+    assert panel(page, "Standard EA").inner_text() == status_of(safe.evolve("maze1", "standard", 1))
 
 
 def test_charts_tell_how_the_run_has_gone(visit):
@@ -249,36 +230,29 @@ def test_less_motion_where_the_reader_asks_for_it(visit):
 
 
 def test_ten_rows_of_the_tables_open_their_runs(visit, html):
-    """Rows of every table that links runs, in turn, until there are ten of them; each is played to its end."""
+    """Two that fail, the soonest to succeed of each page, and others that soon do; each is played to its end."""
     pages = ["table2-success", "fixed-weights", "unevolved", "coefficients", "table3-evolved", "generations", "replay"]
-    found = {}
+    runs, of_page = {}, {}
     for name in pages:
         text = (html / "notebooks" / f"{name}.html").read_text(encoding="utf-8")
-        for row, href in enumerate(re.findall(r'href="\.\./book/playground\.html#(view=watch[^"]*seed=[^"]*)"', text)):
-            found.setdefault(row, {}).setdefault(href.replace("&amp;", "&"), name)
-    hrefs = list(dict.fromkeys(href for row in found.values() for href in row))[:10]
-    assert len(hrefs) == 10
+        for href in re.findall(r'href="\.\./book/playground\.html#(view=watch[^"]*seed=[^"]*)"', text):
+            href = href.replace("&amp;", "&")
+            if href not in runs:
+                runs[href], of_page[href] = run_at(href), name
+    soonest = sorted(runs, key=lambda href: runs[href].generation)
+    failures = [href for href in soonest if not runs[href].success][:2]
+    soonest_of_pages = {of_page[href]: href for href in reversed(soonest)}.values()
+    hrefs = list(dict.fromkeys([*failures, *soonest_of_pages, *soonest]))[:10]
+    assert (len(hrefs), len(failures)) == (10, 2)
+    assert len(soonest_of_pages) > 2
     for href in hrefs:
-        run = _run_of(dict(part.split("=", 1) for part in href.split("&")))
         page = visit(href)
         page.locator(".panel .status").get_by_text("Generation 0").wait_for()
         play_to_the_end(page, page.locator(".panel h2").inner_text())
-        assert page.locator(".panel .status").inner_text() == told(run)
+        assert page.locator(".panel .status").inner_text() == status_of(runs[href])
         page.get_by_role("button", name="Drive the best").click()
-        assert driven(page) == list(run.controller)
+        assert driven(page) == list(runs[href].controller)
         page.context.close()
-
-
-def _run_of(values):
-    """The run of an address, by the package."""
-    name, _, rest = values["algorithm"].partition(":")
-    algorithm = name
-    if rest:
-        rating, objectives = rest.split(":")
-        weights = None if objectives == "drawn" else np.reshape([float(w) for w in objectives.split(",")], (-1, 2))
-        ratings = {"none": "none", "genotypic": "genotypic novelty"}
-        algorithm = safe.Algorithm(name, weights, ratings[rating])
-    return safe.evolve(values["maze"], algorithm, address.read_seed(values["seed"]))
 
 
 def test_other_runs_of_an_experiment_are_a_number_away(visit):
@@ -289,7 +263,7 @@ def test_other_runs_of_an_experiment_are_a_number_away(visit):
     page.keyboard.press("Enter")
     play_to_the_end(page, "Novelty search")
     *_, last = experiment.replay(6)
-    assert panel(page, "Novelty search").inner_text() == told(last.run)
+    assert panel(page, "Novelty search").inner_text() == status_of(last.run)
 
 
 # Drive
@@ -369,19 +343,24 @@ def cells_address(maze):
     return address.drive_address(maze).replace("view=drive", "view=draw")
 
 
+def drag(page, at, start, end):
+    """A stroke of the mouse from one cell to another."""
+    page.mouse.move(*at(*start))
+    page.mouse.down()
+    page.mouse.move(*at(*end))
+    page.mouse.up()
+
+
 ROOM = safe.Maze(np.zeros((12, 20), dtype=bool), (1, 1), (10, 18))
 
 
 def test_drawing_with_a_mouse(visit):
     page = visit(cells_address(ROOM))
     at = editor_at(page, ROOM)
-    page.mouse.move(*at(3, 0))
-    page.mouse.down()
-    page.mouse.move(*at(3, 17))
-    page.mouse.up()
+    drag(page, at, (3, 0), (3, 17))
     walls = ROOM.walls.copy()
     walls[3, :18] = True
-    assert np.array_equal(maze_of(address_of(page)).walls, walls)
+    assert np.array_equal(maze_at(page).walls, walls)
     drawn = safe.Maze(walls, ROOM.start, ROOM.goal)
     checks = page.locator(".checks").inner_text()
     assert "The goal can be reached" in checks
@@ -396,35 +375,31 @@ def test_drawing_with_a_mouse(visit):
     page.get_by_label("Goal", exact=True).check()
     page.mouse.click(*at(3, 6))
     walls[3, 5] = walls[3, 6] = False
-    assert maze_of(address_of(page)) == safe.Maze(walls, (8, 2), (3, 6))
+    assert maze_at(page) == safe.Maze(walls, (8, 2), (3, 6))
     for _ in range(3):
         page.get_by_role("button", name="Undo").click()
-    assert maze_of(address_of(page)) == drawn
+    assert maze_at(page) == drawn
     page.get_by_role("button", name="Redo").click()
     walls[3, 6] = True
-    assert maze_of(address_of(page)) == safe.Maze(walls, ROOM.start, ROOM.goal)
+    assert maze_at(page) == safe.Maze(walls, ROOM.start, ROOM.goal)
 
 
 def test_what_was_drawn_is_not_lost_to_another_maze(visit):
     page = visit(cells_address(ROOM))
     page.mouse.click(*editor_at(page, ROOM)(6, 9))
-    drawn = maze_of(address_of(page))
+    drawn = maze_at(page)
     page.get_by_role("combobox", name="Maze").select_option("spiral")
     assert dict(address_of(page))["maze"] == "spiral"
     page.get_by_role("button", name="Undo").click()
-    assert maze_of(address_of(page)) == drawn
+    assert maze_at(page) == drawn
 
 
 def test_a_maze_whose_goal_is_cut_off_is_not_one_yet(visit):
     page = visit(cells_address(ROOM))
-    at = editor_at(page, ROOM)
-    page.mouse.move(*at(5, 0))
-    page.mouse.down()
-    page.mouse.move(*at(5, 19))
-    page.mouse.up()
+    drag(page, editor_at(page, ROOM), (5, 0), (5, 19))
     assert "goal must be reachable from the start" in page.locator(".checks").inner_text()
     page.get_by_role("tab", name="Drive").click()
-    assert maze_of(address_of(page)) == ROOM
+    assert maze_at(page) == ROOM
 
 
 def test_drawing_with_a_finger(visit):
@@ -433,7 +408,7 @@ def test_drawing_with_a_finger(visit):
     page.touchscreen.tap(*at(6, 9))
     walls = ROOM.walls.copy()
     walls[6, 9] = True
-    assert np.array_equal(maze_of(address_of(page)).walls, walls)
+    assert np.array_equal(maze_at(page).walls, walls)
 
 
 def test_drawing_with_the_keyboard(visit):
@@ -444,10 +419,10 @@ def test_drawing_with_the_keyboard(visit):
     assert "Row 2, column 13: wall" in page.locator("[role=status]:visible").all_inner_texts()[0]
     walls = ROOM.walls.copy()
     walls[2, [2, 3, 13]] = True
-    assert np.array_equal(maze_of(address_of(page)).walls, walls)
+    assert np.array_equal(maze_at(page).walls, walls)
     page.keyboard.press("Control+z")
     walls[2, 13] = False
-    assert np.array_equal(maze_of(address_of(page)).walls, walls)
+    assert np.array_equal(maze_at(page).walls, walls)
 
 
 @pytest.mark.parametrize("button", ["Save as drawing", "Save as maze file"])
@@ -489,7 +464,7 @@ def test_nonsense_gets_one_clear_line(visit, tmp_path, text, message):
     page.get_by_label("or its text").fill("S.G")
     page.get_by_role("button", name="Take this text").click()
     problem.wait_for(state="hidden")
-    assert maze_of(address_of(page)) == safe.Maze.from_drawing("S.G")
+    assert maze_at(page) == safe.Maze.from_drawing("S.G")
 
 
 # Addresses
@@ -554,8 +529,7 @@ def test_the_links_of_the_page_lead_to_what_they_say(visit, html):
     for link in page.locator('article a[href^="#view="]').all():
         link.click()
         view = dict(part.split("=", 1) for part in link.get_attribute("href")[1:].split("&"))["view"]
-        names = {"watch": "Watch", "drive": "Drive", "draw": "Draw", "runs": "Many runs"}
-        page.get_by_role("tab", name=names[view], selected=True).wait_for()
+        page.get_by_role("tab", name=VIEWS[view], selected=True).wait_for()
         assert page.get_by_role("alert").count() == 0
 
 
@@ -594,15 +568,27 @@ def _drawing_of(visit, name):
 
 
 def test_many_runs_stop_and_go_on(visit):
-    page = visit("view=runs&algorithm=standard&seed=0")
-    page.get_by_role("button", name="Run", exact=True).click()
-    page.wait_for_function("document.querySelector('.outcomes td')?.textContent > 2")
+    page = visit("view=runs&algorithm=standard&seed=0&population=20&objectives=20&generations=150")
+    count, button = page.get_by_label("of each algorithm"), page.get_by_role("button", name="Run", exact=True)
+    count.select_option("500")
+    button.click()
+    page.wait_for_function("document.querySelector('.outcomes tbody td')?.textContent > 2")
     page.get_by_role("button", name="Stop").click()
-    done = int(page.locator(".outcomes td").first.inner_text())
-    page.get_by_label("of each algorithm").select_option("10")
-    if done < 10:
-        page.get_by_role("button", name="Run", exact=True).click()
-        page.wait_for_function("document.querySelector('.outcomes td').textContent >= 10")
+    done = int(page.locator(".outcomes tbody td").first.inner_text())
+    more = next(value for value in (10, 20, 50, 100, 200, 500) if value > done)
+    count.select_option(str(more))
+    page.evaluate("""() => {
+        globalThis.seen = [];
+        const rows = document.querySelector(".outcomes tbody");
+        const look = () => seen.push(parseInt(rows.querySelector("td").textContent));
+        new MutationObserver(look).observe(rows, { childList: true });
+    }""")
+    button.click()
+    page.wait_for_function(f"document.querySelector('.outcomes tbody td').textContent >= {more}")
+    button.wait_for()
+    seen = page.evaluate("seen")
+    assert seen == sorted(seen)
+    assert done <= seen[0] < seen[-1] == more
 
 
 # Good to use
@@ -642,13 +628,13 @@ def test_keyboard_alone_is_enough(visit):
     page.keyboard.press("End")
     tab_to("Run")
     page.keyboard.press("Enter")
-    page.get_by_role("button", name="Stop").or_(page.get_by_role("button", name="Run", exact=True)).wait_for()
+    page.wait_for_function("document.querySelector('.outcomes tbody td')?.textContent > 0")
 
 
 @pytest.mark.parametrize("view", VIEWS)
 def test_on_a_phone_nothing_is_cut_off(visit, view):
     page = visit(f"view={view}&algorithm=safe&algorithm=standard&seed=3&generation=5", viewport=PHONE)
-    page.wait_for_timeout(300)
+    wait_for_view(page, view)
     root = page.locator(".playground")
     width = root.bounding_box()["width"]
     wider = root.evaluate(
@@ -668,7 +654,7 @@ def test_on_a_phone_nothing_is_cut_off(visit, view):
 @pytest.mark.parametrize("view", VIEWS)
 def test_no_violation_of_accessibility(visit, view, scheme):
     page = visit(f"view={view}&algorithm=safe&algorithm=novelty&seed=3&generation=5&{QUICK}", color_scheme=scheme)
-    page.wait_for_timeout(500)
+    wait_for_view(page, view)
     if view == "watch":
         panel(page, "SAFE").get_by_text("Generation 5").wait_for()
         page.get_by_label("Robot", exact=True).fill("4")

@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import socket
 import subprocess
 import sys
 import time
@@ -11,7 +10,7 @@ from contextlib import contextmanager
 
 import nbformat
 
-from tests.browser import chromium, needs_browser
+from tests.browser import chromium, complaints_of, needs_browser
 
 PATIENCE = 60  # seconds, for whatever should come; a machine may be busy
 SETTINGS = {
@@ -27,13 +26,9 @@ def jupyter(folder):
     settings.parent.mkdir(parents=True)
     settings.write_text(json.dumps(SETTINGS))
     own = {f"JUPYTER_{kind.upper()}_DIR": str(folder / kind) for kind in ("config", "data", "runtime")}
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
     options = {
         "ServerApp.ip": "127.0.0.1",
-        "ServerApp.port": port,
-        "ServerApp.port_retries": 0,
+        "ServerApp.port": 0,  # any that is free
         "ServerApp.root_dir": folder,
         "ServerApp.allow_root": True,
         "IdentityProvider.token": "",
@@ -51,11 +46,11 @@ def jupyter(folder):
     with log.open("w") as stderr, subprocess.Popen(command, env=environment, stderr=stderr) as server:
         try:
             late = time.monotonic() + PATIENCE
-            while not list((folder / "runtime").glob("jpserver-*.json")):  # written when it is ready
+            while not (told := "".join(file.read_text() for file in (folder / "runtime").glob("jpserver-*.json"))):
                 assert server.poll() is None, log.read_text()
                 assert time.monotonic() < late, log.read_text()
                 time.sleep(0.1)
-            yield f"http://127.0.0.1:{port}/"
+            yield json.loads(told)["url"]  # told when it is ready
         finally:
             server.terminate()
 
@@ -119,11 +114,7 @@ def test_page_and_kernel_change_the_same(tmp_path):
     with jupyter(tmp_path) as address, chromium() as browser:
         page = browser.new_page(viewport={"width": 1280, "height": 900})
         page.set_default_timeout(1000 * PATIENCE)
-        complaints = []
-        page.on("console", lambda message: message.type == "error" and complaints.append(message.text))
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        here = (address, address.replace("http", "ws"), "data:", f"blob:{address}")
-        page.on("request", lambda request: request.url.startswith(here) or complaints.append(request.url))
+        complaints = complaints_of(page, (address, address.replace("http", "ws"), "data:", f"blob:{address}"))
         notebook = Notebook(page, tmp_path, address, CELLS)
         notebook.run("show")
         notebook.run("again")

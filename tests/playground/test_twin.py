@@ -15,7 +15,7 @@ from safe.maze import MAZE_FOLDER, parse_maze, ways_to_goal
 from safe.novelty import METRICS
 from tests import fuzz, golden, record
 from tests.conftest import controllers, mazes
-from tests.playground.twin import TWINS, run_of, told
+from tests.playground.twin import TWINS, in_node, needs_node, run_of, told
 from tests.test_maze import BAD_DRAWINGS, BAD_LISTS
 from tests.test_novelty import generations_of_points
 from tests.test_robot import reference_endpoints
@@ -334,11 +334,13 @@ def test_bad_archives_are_refused_in_the_same_words(twin, arguments):
     assert answer.get("error") == str(refused.value)
 
 
-def test_golden_runs(twin):
+@needs_node
+def test_golden_runs():
     golden_runs = json.loads(golden.FILE.read_text())["runs"]
-    found = twin.results(
-        run_of("evolve", load_maze(run["maze"]), run["algorithm"], run["seed"], Parameters()) for run in golden_runs
-    )
+    with in_node() as twin:
+        found = twin.results(
+            run_of("evolve", load_maze(run["maze"]), run["algorithm"], run["seed"], Parameters()) for run in golden_runs
+        )
     assert found == [run["outcome"] for run in golden_runs]
 
 
