@@ -159,7 +159,7 @@ def test_page_and_kernel_change_the_same(tmp_path):
         wait_for("1", "spinbutton", "Run")
         field("slider", "Speed").press("End")
         field("button", "Play").click()
-        assert notebook.run("run") == "True"
+        assert notebook.run("run").endswith("True")  # behind what it may say of compiling
         notebook.run_until("result", "True")
         assert notebook.run("driven") == "True"
         view.get_by_role("tab", name="Drive").click()
