@@ -145,6 +145,17 @@ def test_page_and_kernel_change_the_same(tmp_path):
         wait_for("trap", "combobox", "Maze", other)
         notebook.run("another")
         wait_for("maze2", "combobox", "Maze", another)
+
+        # two widgets share no names, and keys that mean something to a notebook stay in them
+        ids = page.locator(".playground [id]").evaluate_all("nodes => nodes.map((node) => node.id)")
+        assert len(ids) == len(set(ids)) > 0
+        another.get_by_role("tab", name="Draw").click()
+        assert field("radio", "Wall", another).is_checked()
+        cells = page.locator(".jp-Notebook .jp-CodeCell").count()
+        another.locator("canvas.editor").focus()
+        for key in "bdd":
+            page.keyboard.press(key)
+        assert page.locator(".jp-Notebook .jp-CodeCell").count() == cells
         notebook.run("draw")
         wait_for("drawn", "combobox", "Maze")
         wait_for("maze2", "combobox", "Maze", another)
