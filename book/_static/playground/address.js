@@ -31,7 +31,9 @@ export function readAddress(text) {
     else throw new InputError(`an address must hold known keys; was ${shown(key)}`);
   }
   if (state.algorithms?.length > MOST_ALGORITHMS) {
-    throw new InputError(`an address may hold ${MOST_ALGORITHMS} algorithms at the most; had ${state.algorithms.length}`);
+    throw new InputError(
+      `an address may hold ${MOST_ALGORITHMS} algorithms at the most; had ${state.algorithms.length}`,
+    );
   }
   if (Object.keys(parameters).length > 0) {
     checkedParameters(parameters);
@@ -42,7 +44,10 @@ export function readAddress(text) {
 
 /** The address of a state. */
 export function writeAddress({ view, maze, algorithms, seed, parameters, generation, runs, controller }) {
-  const parts = [["view", view], ["maze", writeMaze(maze)]];
+  const parts = [
+    ["view", view],
+    ["maze", writeMaze(maze)],
+  ];
   for (const algorithm of algorithms) parts.push(["algorithm", writeAlgorithm(algorithm)]);
   parts.push(["seed", writeSeed(seed)], ...Object.entries(parameters));
   if (view === "watch" && generation > 0) parts.push(["generation", generation]);
@@ -65,7 +70,10 @@ export function readSeed(text) {
 /** The text of a seed. */
 export function writeSeed({ entropy, spawnKey }) {
   const number = (value) => (value < 2n ** 64n ? `${value}` : `0x${value.toString(16)}`);
-  return [entropy, spawnKey].filter((list) => list.length > 0).map((list) => list.map(number).join()).join("/");
+  return [entropy, spawnKey]
+    .filter((list) => list.length > 0)
+    .map((list) => list.map(number).join())
+    .join("/");
 }
 
 /** The n-th of the seeds that begin with this one: of an experiment's run its n-th run, of an integer the n-th after. */
@@ -86,7 +94,11 @@ export function isNamed(maze) {
 
 /** A maze, by its name where it is one of MAZES. */
 export function known(maze) {
-  return Object.keys(MAZES).map((name) => ({ ...maze, name })).find(isNamed) ?? maze;
+  return (
+    Object.keys(MAZES)
+      .map((name) => ({ ...maze, name }))
+      .find(isNamed) ?? maze
+  );
 }
 
 /** 16 weights from a text, or from an array of numbers. */
@@ -100,7 +112,8 @@ function readWeight(text) {
 }
 
 function readNumber(name, text) {
-  if (!/^[0-9]{1,9}(\.[0-9]{1,30})?(e-[0-9]{1,3})?$/.test(text)) throw new InputError(`${name} must be a number; was ${shown(text)}`);
+  if (!/^[0-9]{1,9}(\.[0-9]{1,30})?(e-[0-9]{1,3})?$/.test(text))
+    throw new InputError(`${name} must be a number; was ${shown(text)}`);
   return Number(text);
 }
 
@@ -108,7 +121,12 @@ function readAlgorithm(text) {
   const [name, rating, objectives, ...more] = text.split(":");
   if (rating === undefined) return checkedAlgorithm(name);
   const weights = objectives === "drawn" ? null : objectives ? objectives.split(",").map(readWeight) : [];
-  if (objectives === undefined || more.length > 0 || !Object.hasOwn(RATING_CODES, rating) || (weights !== null && weights.length % 2)) {
+  if (
+    objectives === undefined ||
+    more.length > 0 ||
+    !Object.hasOwn(RATING_CODES, rating) ||
+    (weights !== null && weights.length % 2)
+  ) {
     throw new InputError(`algorithm must be a name, or name:rating:a,b,...; was ${shown(text)}`);
   }
   const pairs = weights?.flatMap((weight, i) => (i % 2 ? [] : [[weight, weights[i + 1]]])) ?? null;
@@ -123,7 +141,9 @@ function writeAlgorithm(algorithm) {
 
 function readMaze(text) {
   if (!text.includes("/")) return namedMaze(text);
-  const match = /^([0-9]{1,4})x([0-9]{1,4})\/([0-9]{1,4}),([0-9]{1,4})\/([0-9]{1,4}),([0-9]{1,4})\/([\w-]*)$/.exec(text);
+  const match = /^([0-9]{1,4})x([0-9]{1,4})\/([0-9]{1,4}),([0-9]{1,4})\/([0-9]{1,4}),([0-9]{1,4})\/([\w-]*)$/.exec(
+    text,
+  );
   const numbers = match?.slice(1, 7).map(Number);
   const [height, width] = numbers ?? [0, 0];
   const bytes = match ? bytesOf(match[7]) : [];

@@ -47,7 +47,9 @@ export class LineChart {
 export class ObjectiveSquare {
   constructor() {
     this.drawing = makeSvg("svg", { viewBox: "0 0 250 250", role: "img" });
-    this.element = make("figure", { class: "chart square" }, make("figcaption", {}, "Objective functions", make("small", {}, "large: those that gave robots their fitness")), this.drawing);
+    const legend = make("small", {}, "large: those that gave robots their fitness");
+    const caption = make("figcaption", {}, "Objective functions", legend);
+    this.element = make("figure", { class: "chart square" }, caption, this.drawing);
   }
 
   /** groups: { label, kind, objectives: [a, b] each, winners: which of them gave each solution its fitness, chosen: one
@@ -64,7 +66,9 @@ export class ObjectiveSquare {
       const wins = new Map();
       for (const j of winners) wins.set(j, (wins.get(j) ?? 0) + 1);
       for (const objective of thinned(objectives)) judges.push(dot(objective, 2.2, "judge"));
-      for (const [j, count] of wins) winning.push(dot(objectives[j], 3.5 + Math.min(6, Math.sqrt(count) / 3), `winner ${kind}`));
+      for (const [j, count] of wins) {
+        winning.push(dot(objectives[j], 3.5 + Math.min(6, Math.sqrt(count) / 3), `winner ${kind}`));
+      }
       if (chosen !== null) marks.push(dot(objectives[chosen], 11, "chosen"));
       told.push(`${label}: ${objectives.length}, of which ${wins.size} gave solutions their fitness`);
     }
@@ -114,5 +118,7 @@ function short(value) {
 }
 
 function summary({ label, points }) {
-  return points.length === 0 ? `${label}: nothing yet` : `${label}: ${short(points.at(-1)[1])} at ${short(points.at(-1)[0])}`;
+  if (points.length === 0) return `${label}: nothing yet`;
+  const [x, y] = points.at(-1);
+  return `${label}: ${short(y)} at ${short(x)}`;
 }

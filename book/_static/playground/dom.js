@@ -15,7 +15,8 @@ export function makeSvg(tag, attributes = {}, ...children) {
 function filled(node, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
-    else if (value !== null && value !== undefined && value !== false) node.setAttribute(name, value === true ? "" : value);
+    else if (value !== null && value !== undefined && value !== false)
+      node.setAttribute(name, value === true ? "" : value);
   }
   node.append(...children.filter((child) => child !== null));
   return node;
@@ -49,7 +50,13 @@ export function makeRadios(name, options, chosen, onchange) {
       make(
         "label",
         {},
-        make("input", { type: "radio", name: group, value, checked: value === chosen, onchange: () => onchange(value) }),
+        make("input", {
+          type: "radio",
+          name: group,
+          value,
+          checked: value === chosen,
+          onchange: () => onchange(value),
+        }),
         text,
       ),
     ),

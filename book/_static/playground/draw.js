@@ -6,7 +6,12 @@ import { download, labelled, make, makeButton, makeRadios } from "./dom.js";
 import { distanceBetween, drawingOf, listOf, LONGEST_SIDE, makeMaze, parseMaze, waysToGoal } from "./maze.js";
 import { MazeView } from "./mazeview.js";
 
-const TOOLS = [["wall", "Wall"], ["open", "Erase"], ["start", "Start"], ["goal", "Goal"]];
+const TOOLS = [
+  ["wall", "Wall"],
+  ["open", "Erase"],
+  ["start", "Start"],
+  ["goal", "Goal"],
+];
 const REMEMBERED = 200; // strokes that can be undone
 const MOVES = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] };
 
@@ -30,7 +35,10 @@ export class DrawView {
     });
     const { canvas } = this.view;
     canvas.addEventListener("pointerdown", (event) => this.#press(event));
-    canvas.addEventListener("pointermove", (event) => event.pointerId === this.pointer && this.#drag(this.view.cellAt(event)));
+    canvas.addEventListener(
+      "pointermove",
+      (event) => event.pointerId === this.pointer && this.#drag(this.view.cellAt(event)),
+    );
     for (const end of ["pointerup", "pointercancel"]) {
       canvas.addEventListener(end, (event) => event.pointerId === this.pointer && this.#finish());
     }
@@ -144,20 +152,29 @@ export class DrawView {
   /** Tell what there is to tell of the draft. Is it a maze? */
   #check() {
     const { height, width, walls, start, goal } = this.draft;
-    const tell = (...lines) => this.checks.replaceChildren(...lines.map(([kind, text]) => make("li", { class: kind }, text)));
+    const tell = (...lines) =>
+      this.checks.replaceChildren(...lines.map(([kind, text]) => make("li", { class: kind }, text)));
     this.undoButton.disabled = this.past.length === 0;
     this.redoButton.disabled = this.future.length === 0;
     try {
       this.own = known(makeMaze(walls, height, width, start, goal, "drawn"));
     } catch (error) {
-      tell(["bad", `Not a maze yet: ${error.message}.`], ["plain", "The other views keep to the last one that was a maze."]);
+      tell(
+        ["bad", `Not a maze yet: ${error.message}.`],
+        ["plain", "The other views keep to the last one that was a maze."],
+      );
       return false;
     }
     const ways = waysToGoal(this.own);
-    const way = ways[start[0] * width + start[1]], distance = distanceBetween(start, goal);
+    const way = ways[start[0] * width + start[1]],
+      distance = distanceBetween(start, goal);
     tell(
       ["good", "The goal can be reached."],
-      ["plain", `From the start it is ${distance} cells away in rows and columns, and ${way} on the shortest way: ${(way / distance).toFixed(1)} times as far.`],
+      [
+        "plain",
+        `From the start it is ${distance} cells away in rows and columns, and ${way} on the shortest way: ` +
+          `${(way / distance).toFixed(1)} times as far.`,
+      ],
       ["plain", deception(this.own, ways)],
     );
     return true;
@@ -229,7 +246,10 @@ export class DrawView {
     const [row, column] = this.cursor ?? this.draft.start;
     if (Object.hasOwn(MOVES, event.key)) {
       const [down, right] = MOVES[event.key].map((step) => step * (event.shiftKey ? 10 : 1));
-      this.#moveCursor([Math.min(Math.max(row + down, 0), height - 1), Math.min(Math.max(column + right, 0), width - 1)]);
+      this.#moveCursor([
+        Math.min(Math.max(row + down, 0), height - 1),
+        Math.min(Math.max(column + right, 0), width - 1),
+      ]);
     } else if (event.key === " " || event.key === "Enter") {
       this.#remember();
       this.#apply({ row, column });
@@ -281,17 +301,27 @@ function copyOf({ height, width, walls, start, goal }) {
 
 /** In how many cells closeness to the goal misleads, in words. */
 function deception({ walls, height, width, goal }, ways) {
-  let reachable = 0, misled = 0;
+  let reachable = 0,
+    misled = 0;
   for (let cell = 0; cell < ways.length; cell++) {
     if (ways[cell] <= 0) continue;
     reachable++;
-    const column = cell % width, row = Math.floor(cell / width);
-    const beside = [[row, column - 1], [row, column + 1], [row - 1, column], [row + 1, column]];
+    const column = cell % width,
+      row = Math.floor(cell / width);
+    const beside = [
+      [row, column - 1],
+      [row, column + 1],
+      [row - 1, column],
+      [row + 1, column],
+    ];
     const isNearer = ([r, c]) => distanceBetween([r, c], goal) < distanceBetween([row, column], goal);
     const isOnTheWay = ([r, c]) =>
       r >= 0 && r < height && c >= 0 && c < width && !walls[r * width + c] && ways[r * width + c] < ways[cell];
     if (!beside.some((next) => isOnTheWay(next) && isNearer(next))) misled++;
   }
   const percent = ((100 * misled) / reachable).toFixed(0);
-  return `How deceptive: in ${percent} % of the cells that lead to the goal, every shortest way begins with a step away from the goal.`;
+  return (
+    `How deceptive: in ${percent} % of the cells that lead to the goal, every shortest way begins with a step away from ` +
+    "the goal."
+  );
 }

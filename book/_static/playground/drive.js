@@ -21,7 +21,12 @@ export class DriveView {
     this.walker = null; // has walked the path that is shown
     this.view = new MazeView({ class: "drive-maze" });
     this.play = makeButton("Play", () => (this.timer ? this.pause() : this.#start()), { class: "primary" });
-    this.slider = make("input", { type: "range", min: 0, step: 1, oninput: () => this.#stand(this.slider.valueAsNumber) });
+    this.slider = make("input", {
+      type: "range",
+      min: 0,
+      step: 1,
+      oninput: () => this.#stand(this.slider.valueAsNumber),
+    });
     this.where = make("p", { class: "status" });
     this.said = make("p", { class: "unseen", role: "status" }); // the same, where it is not one of many
     this.client = null; // evolves weights to start from
@@ -62,16 +67,24 @@ export class DriveView {
         make(
           "table",
           { class: "weights" },
-          make("caption", {}, "What the robot reads where it stands: dist is how far the next wall is; goal is the size of the maze on the sides where the goal lies, and 0 on the others"),
+          make(
+            "caption",
+            {},
+            "What the robot reads where it stands: dist is how far the next wall is; goal is the size of the maze on the " +
+              "sides where the goal lies, and 0 on the others",
+          ),
           make(
             "thead",
             {},
             make(
               "tr",
               {},
-              ...["Sensor", "Reading", "Weight in h (right if h ≥ 0, else left)", "Weight in v (down if v ≥ 0, else up)"].map((text, i) =>
-                make("th", { scope: "col", class: i === 1 ? "number" : null }, text),
-              ),
+              ...[
+                "Sensor",
+                "Reading",
+                "Weight in h (right if h ≥ 0, else left)",
+                "Weight in v (down if v ≥ 0, else up)",
+              ].map((text, i) => make("th", { scope: "col", class: i === 1 ? "number" : null }, text)),
             ),
           ),
           make(
@@ -114,7 +127,8 @@ export class DriveView {
   }
 
   #makeSlider(i) {
-    const sensor = SENSORS[i % SENSORS.length].replace("_", " "), sum = i < SENSORS.length ? "h" : "v";
+    const sensor = SENSORS[i % SENSORS.length].replace("_", " "),
+      sum = i < SENSORS.length ? "h" : "v";
     const shown = make("output");
     const field = make("input", {
       type: "range",
@@ -124,7 +138,14 @@ export class DriveView {
       "aria-label": `p${i + 1}: ${sensor} in ${sum}`,
       oninput: () => this.#weigh(i, Math.round(field.valueAsNumber * 100) / 100),
       onkeydown: (event) => {
-        const change = { ArrowRight: 0.05, ArrowUp: 0.05, ArrowLeft: -0.05, ArrowDown: -0.05, PageUp: 0.25, PageDown: -0.25 };
+        const change = {
+          ArrowRight: 0.05,
+          ArrowUp: 0.05,
+          ArrowLeft: -0.05,
+          ArrowDown: -0.05,
+          PageUp: 0.25,
+          PageDown: -0.25,
+        };
         if (!Object.hasOwn(change, event.key)) return;
         event.preventDefault();
         const weight = Math.round((field.valueAsNumber + change[event.key]) * 100) / 100;
@@ -148,7 +169,9 @@ export class DriveView {
   async #take(choice) {
     const maze = this.store.state.maze;
     if (choice === "random") {
-      this.store.set({ controller: Array.from({ length: WEIGHTS }, () => Math.round(200 * Math.random() - 100) / 100) });
+      this.store.set({
+        controller: Array.from({ length: WEIGHTS }, () => Math.round(200 * Math.random() - 100) / 100),
+      });
       return;
     }
     const { explanation, controller, run } = PRESETS[choice];
@@ -212,8 +235,8 @@ export class DriveView {
     );
     const goes = [sums[0] >= 0 ? "right" : "left", sums[1] >= 0 ? "down" : "up"];
     ["h", "v"].forEach((name, i) => (this.sums[i].textContent = `${name} = ${sums[i].toFixed(1)}: ${goes[i]}`));
-    this.where.textContent =
-      `Step ${this.step}: row ${robot[0]}, column ${robot[1]}, ${cellsText(distanceBetween(robot, maze.goal))} from the goal.`;
+    const distance = cellsText(distanceBetween(robot, maze.goal));
+    this.where.textContent = `Step ${this.step}: row ${robot[0]}, column ${robot[1]}, ${distance} from the goal.`;
     const rays = Object.entries(DIRECTIONS).map(([direction, [down, right]]) => {
       const reach = readings[SENSORS.indexOf(`dist_${direction}`)];
       return [robot, [robot[0] + down * reach, robot[1] + right * reach]];

@@ -95,8 +95,14 @@ export function makeSeedFields(store, complain) {
     run.value = spawnKey.length > 0 ? String(spawnKey.at(-1)) : "";
   };
   const change = (read) => () => complain(() => store.set({ seed: read(), generation: 0 }), show);
-  seed.addEventListener("change", change(() => readSeed(seed.value.trim())));
-  run.addEventListener("change", change(() => nthSeed(store.state.seed, checkedInteger("run", run.valueAsNumber, 0, MOST))));
+  seed.addEventListener(
+    "change",
+    change(() => readSeed(seed.value.trim())),
+  );
+  run.addEventListener(
+    "change",
+    change(() => nthSeed(store.state.seed, checkedInteger("run", run.valueAsNumber, 0, MOST))),
+  );
   store.listen((names) => names.includes("seed") && show());
   show();
   return { seed: labelled("Seed", seed), run: runField };

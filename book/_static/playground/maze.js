@@ -46,7 +46,8 @@ export function makeMaze(walls, height, width, start, goal, name = "maze") {
     );
   }
   const own = Uint8Array.from(walls, (cell) => (cell ? 1 : 0));
-  return { name, height, width, walls: own, start: [...start], goal: [...goal], sensors: senseEverywhere(own, height, width, goal) };
+  const sensors = senseEverywhere(own, height, width, goal);
+  return { name, height, width, walls: own, start: [...start], goal: [...goal], sensors };
 }
 
 /** The maze that a text describes: a drawing, or a list of size, start, goal and wall lines. */

@@ -62,7 +62,8 @@ export class MazeView {
     const { maze, archive, ends, colour, trail, paths = [], robot, rays = [], links = [], marked, cursor } = this.scene;
     const style = getComputedStyle(this.canvas);
     const colourOf = (name) => style.getPropertyValue(`--${name}`);
-    const pixels = Math.min(this.canvas.clientWidth * devicePixelRatio, LARGEST_SIDE, (LARGEST_SIDE * maze.width) / maze.height);
+    const most = LARGEST_SIDE * Math.min(1, maze.width / maze.height);
+    const pixels = Math.min(this.canvas.clientWidth * devicePixelRatio, most);
     const scale = pixels / maze.width;
     this.canvas.width = Math.round(pixels);
     this.canvas.height = Math.round(scale * maze.height);

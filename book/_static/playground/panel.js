@@ -63,7 +63,9 @@ export class Panel {
     const best = `best ${cellsText(result.distance)} from the goal`;
     const [a, b] = result.coefficients;
     const isJudged = a !== undefined; // in random search nobody is, and there are no generations
-    const inWords = result.success ? `Success in generation ${result.generation}` : `No success in ${result.generation + 1} generations`;
+    const inWords = result.success
+      ? `Success in generation ${result.generation}`
+      : `No success in ${result.generation + 1} generations`;
     const outcome = isJudged ? inWords : result.success ? "Success" : "No success";
     const judged = isJudged ? ` Its fitness: ${number3(a)} · closeness + ${number3(b)} · novelty.` : "";
     this.status.textContent = now.isOver

@@ -1,6 +1,15 @@
 // The playground: SAFE to see and to play with, in a page of the book or in a notebook.
 
-import { isNamed, known, namedMaze, readAddress, readController, readSeed, writeAddress, writeSeed } from "./address.js";
+import {
+  isNamed,
+  known,
+  namedMaze,
+  readAddress,
+  readController,
+  readSeed,
+  writeAddress,
+  writeSeed,
+} from "./address.js";
 import { ALGORITHMS } from "./algorithms.js";
 import { freshId, labelled, make, makeSelect } from "./dom.js";
 import { DrawView } from "./draw.js";

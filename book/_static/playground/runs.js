@@ -165,7 +165,12 @@ export class RunsView {
     );
     for (const { row, steps, results } of counted) {
       const { runs = 0, successes = 0, low = 0, high = 1 } = steps.at(-1) ?? {};
-      const numbers = [runs, successes, runs > 0 ? `${percent(successes / runs)} %` : "–", `${percent(low)} to ${percent(high)} %`];
+      const numbers = [
+        runs,
+        successes,
+        runs > 0 ? `${percent(successes / runs)} %` : "–",
+        `${percent(low)} to ${percent(high)} %`,
+      ];
       numbers.forEach((number, i) => (row.cells[i].textContent = number));
       for (const { button, success } of row.openers) button.disabled = !results.includes(success);
     }
@@ -175,7 +180,10 @@ export class RunsView {
   /** A row of the table, which stays while its texts change, so that nobody loses the button under the finger. */
   #makeRow(algorithm) {
     const cells = Array.from({ length: 4 }, () => make("td", { class: "number" }));
-    const openers = [["a success", true], ["a failure", false]].map(([text, success]) => {
+    const openers = [
+      ["a success", true],
+      ["a failure", false],
+    ].map(([text, success]) => {
       const open = () => {
         const { results } = this.outcomes.find((outcome) => outcome.algorithm === algorithm);
         const { algorithms, seed } = this.settings;

@@ -84,7 +84,11 @@ export class WatchView {
           "div",
           {},
           this.inspector,
-          make("div", { class: "charts" }, ...[this.square, ...Object.values(this.charts)].map(({ element }) => element)),
+          make(
+            "div",
+            { class: "charts" },
+            ...[this.square, ...Object.values(this.charts)].map(({ element }) => element),
+          ),
         ),
       ),
     );
@@ -128,12 +132,17 @@ export class WatchView {
     this.looked = null;
     const [run] = seed.spawnKey;
     this.replayed.textContent =
-      run === undefined ? "" : `Run ${run} of an experiment (those of the book have runs 0 to 499). Change Run to see the others.`;
+      run === undefined
+        ? ""
+        : `Run ${run} of an experiment (those of the book have runs 0 to 499). Change Run to see the others.`;
     const { turn } = this;
     const ondrive = (controller) => this.store.set({ controller, view: "drive" });
     this.panels = algorithms.map(
       (algorithm, i) =>
-        new Panel(algorithm, this.makeWorker, { onpick: (cell) => this.#look(i, (panel) => panel.nearest(cell)), ondrive }),
+        new Panel(algorithm, this.makeWorker, {
+          onpick: (cell) => this.#look(i, (panel) => panel.nearest(cell)),
+          ondrive,
+        }),
     );
     this.row.replaceChildren(...this.panels.map(({ element }) => element));
     this.row.setAttribute("aria-busy", "true");
@@ -239,7 +248,8 @@ export class WatchView {
   /** Look at the solution of the i-th algorithm that `pick` names, in the generation that is there once all rest. */
   async #look(i, pick) {
     this.pause();
-    const panel = this.panels[i], { turn } = this;
+    const panel = this.panels[i],
+      { turn } = this;
     await this.#until(this.work, turn);
     if (turn !== this.turn) return;
     const individual = pick(panel);
@@ -262,7 +272,10 @@ export class WatchView {
       step: 1,
       value: looked ? looked.individual : "",
     });
-    const choice = makeSelect(panels.map(({ algorithm }, i) => [i, titleOf(algorithm)]), () => look());
+    const choice = makeSelect(
+      panels.map(({ algorithm }, i) => [i, titleOf(algorithm)]),
+      () => look(),
+    );
     if (looked) choice.value = panels.indexOf(looked.panel);
     const look = () => {
       const n = Math.max(0, Math.round(number.valueAsNumber || 0));
@@ -273,7 +286,12 @@ export class WatchView {
     this.inspector.replaceChildren(
       make("h2", {}, "One robot"),
       make("p", { class: "note" }, "Click where one ended, or give its number in the generation, counted from 0."),
-      make("div", { class: "controls" }, labelled("Robot", number), ...(panels.length > 1 ? [labelled("of", choice)] : [])),
+      make(
+        "div",
+        { class: "controls" },
+        labelled("Robot", number),
+        ...(panels.length > 1 ? [labelled("of", choice)] : []),
+      ),
       ...(looked ? this.#describe(looked) : []),
     );
     if (had) this.inspector.querySelector(had.toLowerCase())?.focus();
@@ -281,7 +299,9 @@ export class WatchView {
 
   #describe({ individual, inspected }) {
     const { endpoint, distance, novelty, neighbours, fitness, coefficients, winner, fromGoal, fromNovelty } = inspected;
-    const lines = [`Robot ${individual} ended at row ${endpoint[0]}, column ${endpoint[1]}, ${cellsText(distance)} from the goal.`];
+    const lines = [
+      `Robot ${individual} ended at row ${endpoint[0]}, column ${endpoint[1]}, ${cellsText(distance)} from the goal.`,
+    ];
     if (novelty !== null) {
       const own = neighbours.filter(({ from }) => from === "population").length;
       const all = neighbours.map((neighbour) => neighbour.distance);
@@ -303,14 +323,15 @@ export class WatchView {
           `b = ${number3(coefficients[1])}: ${number3(fromGoal)} for being near the goal${inWords(percent)} and ` +
           `${number3(fromNovelty)} for novelty${inWords(rest)}.`,
       );
-      if (hasShares) parts.push(
-        make(
-          "div",
-          { class: "shares", role: "img", "aria-label": `Of its fitness, ${percent} is goal and ${rest} novelty` },
-          make("span", { class: "goal", style: `flex-grow: ${share}` }, share > 0.1 ? "goal" : ""),
-          make("span", { class: "novelty", style: `flex-grow: ${1 - share}` }, share < 0.9 ? "novelty" : ""),
-        ),
-      );
+      if (hasShares)
+        parts.push(
+          make(
+            "div",
+            { class: "shares", role: "img", "aria-label": `Of its fitness, ${percent} is goal and ${rest} novelty` },
+            make("span", { class: "goal", style: `flex-grow: ${share}` }, share > 0.1 ? "goal" : ""),
+            make("span", { class: "novelty", style: `flex-grow: ${1 - share}` }, share < 0.9 ? "novelty" : ""),
+          ),
+        );
     } else lines.push("Nobody judges it: in random search there is nothing to select by.");
     return [
       ...lines.map((line) => make("p", { class: "told" }, line)),
@@ -333,6 +354,8 @@ function makeLegend() {
   return make(
     "ul",
     { class: "legend" },
-    ...entries.map(([kind, text]) => make("li", {}, make("span", { class: `key ${kind}`, "aria-hidden": "true" }), text)),
+    ...entries.map(([kind, text]) =>
+      make("li", {}, make("span", { class: `key ${kind}`, "aria-hidden": "true" }), text),
+    ),
   );
 }

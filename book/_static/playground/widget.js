@@ -23,9 +23,12 @@ export function renderWidget(model, element, makeWorker) {
   });
   const keep = (event) => event.stopPropagation(); // keys mean something else to a notebook: d d deletes a cell
   element.addEventListener("keydown", keep);
-  const listeners = SHARED.map((key) => [`change:${key}`, () => {
-    if (!isTelling) view.update({ [key]: structuredClone(model.get(key)) });
-  }]);
+  const listeners = SHARED.map((key) => [
+    `change:${key}`,
+    () => {
+      if (!isTelling) view.update({ [key]: structuredClone(model.get(key)) });
+    },
+  ]);
   for (const [event, listener] of listeners) model.on(event, listener);
   return () => {
     for (const [event, listener] of listeners) model.off(event, listener);
