@@ -210,6 +210,43 @@ def test_a_robot_is_looked_at_where_it_is_clicked(visit):
     page.get_by_text(f"ended at row {row}, column {column},").wait_for()
 
 
+def test_a_robot_that_is_clicked_in_passing_is_one_of_the_generation_that_stays(visit):
+    generations = {g.generation: g for g in safe.generations("maze2", "novelty", 4, QUICK_PARAMETERS)}
+    page = visit(f"maze=maze2&algorithm=novelty&seed=4&{QUICK}")
+    panel(page, "Novelty search").get_by_text("Generation 0").wait_for()
+    page.get_by_label("Speed").fill("4")
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_function("document.querySelector('.panel .status').textContent.match(/\\d+/)[0] > 3")
+    page.get_by_role("region", name="Novelty search").locator("canvas").click(position={"x": 200, "y": 200})
+    told = page.get_by_text(re.compile("^Robot .* ended at"))
+    told.wait_for()
+    generation = generations[int(page.get_by_label("Generation", exact=True).input_value())]
+    robot, row, column = map(int, re.findall(r"\d+", told.inner_text())[:3])
+    assert generation.endpoints[robot].tolist() == [row, column]
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "message"),
+    [
+        ("Run", "-1", "run must be an integer from 0 to 1000000; was -1"),
+        ("Run", "1.5", "run must be an integer from 0 to 1000000; was 1.5"),
+        ("Generation", "10000000000", "generation must be an integer from 0 to 1000000; was 10000000000"),
+        ("population", "7", "population must be an even number; was 7"),
+        ("mutation probability", "2", "mutation must be a number from 0 to 1; was 2"),
+    ],
+)
+def test_a_number_out_of_range_is_refused_and_what_was_there_comes_back(visit, field, value, message):
+    page = visit(f"algorithm=standard&seed=3/5&{QUICK}")
+    panel(page, "Standard EA").get_by_text("Generation 0").wait_for()
+    page.locator(".playground summary:visible").click()
+    number = page.get_by_role("spinbutton", name=field, exact=True)
+    before = number.input_value()
+    number.fill(value)
+    page.keyboard.press("Enter")
+    page.get_by_role("alert").get_by_text(message).wait_for()
+    assert number.input_value() == before
+
+
 def test_less_motion_where_the_reader_asks_for_it(visit):
     page = visit(f"algorithm=standard&seed=1&{QUICK}", reduced_motion="reduce")
     panel(page, "Standard EA").get_by_text("Generation 0").wait_for()
@@ -322,6 +359,17 @@ def test_weights_to_start_from(visit):
         assert "a success" in page.locator(".outcome").inner_text()
 
 
+def test_weights_that_are_being_evolved_do_not_overwrite_others(visit):
+    page = visit("view=drive")
+    choice = page.get_by_role("combobox", name="Weights")
+    titles = choice.locator("option").all_inner_texts()
+    choice.select_option(label=next(title for title in titles if "best of a run" in title))
+    choice.select_option("random")
+    chosen = driven(page)
+    page.wait_for_timeout(1500)  # as long as the run would have taken, and more
+    assert driven(page) == chosen
+
+
 # Draw
 
 
@@ -379,6 +427,21 @@ def test_drawing_with_a_mouse(visit):
     page.get_by_role("button", name="Redo").click()
     walls[3, 6] = True
     assert maze_at(page) == safe.Maze(walls, ROOM.start, ROOM.goal)
+
+
+def test_a_stroke_that_leaves_the_maze_draws_nothing_outside(visit):
+    page = visit(cells_address(ROOM))
+    at = editor_at(page, ROOM)
+    drag(page, at, (6, 4), (-3, 4))
+    walls = ROOM.walls.copy()
+    walls[:7, 4] = True
+    assert np.array_equal(maze_at(page).walls, walls)
+
+
+def test_a_narrow_maze_makes_no_endless_page(visit):
+    page = visit(cells_address(safe.Maze(np.zeros((400, 2), dtype=bool), (0, 0), (399, 1))))
+    page.locator("canvas.editor").wait_for()
+    assert page.locator("canvas.editor").bounding_box()["height"] < DESKTOP["height"]
 
 
 def test_what_was_drawn_is_not_lost_to_another_maze(visit):
@@ -527,6 +590,15 @@ def test_the_links_of_the_page_lead_to_what_they_say(visit, html):
         link.click()
         view = dict(part.split("=", 1) for part in link.get_attribute("href")[1:].split("&"))["view"]
         page.get_by_role("tab", name=VIEWS[view], selected=True).wait_for()
+        assert page.get_by_role("alert").count() == 0
+
+
+def test_the_links_of_the_lesson_are_read(visit, html):
+    links = re.findall(r'href="playground\.html#([^"]+)"', (html / "book" / "use.html").read_text(encoding="utf-8"))
+    assert len(links) == 5
+    for link in links:
+        page = visit(link.replace("&amp;", "&"))
+        page.get_by_role("tab", selected=True).wait_for()
         assert page.get_by_role("alert").count() == 0
 
 
