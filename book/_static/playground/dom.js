@@ -66,6 +66,14 @@ export function makeRadios(name, options, chosen, onchange) {
 const OWN = Math.random().toString(36).slice(2); // each widget of a notebook loads this module anew
 let serial = 0;
 
+/** What is seen in a maze, as [kind, text] pairs; for kinds see playground.css. */
+export function makeLegend(entries) {
+  const items = entries.map(([kind, text]) =>
+    make("li", {}, make("span", { class: `key ${kind}`, "aria-hidden": "true" }), text),
+  );
+  return make("ul", { class: "legend" }, ...items);
+}
+
 /** An id that no other element has. */
 export function freshId(name) {
   return `playground-${OWN}-${name}-${serial++}`;

@@ -2,12 +2,18 @@
 
 import { PARAMETERS } from "./algorithms.js";
 import { Client } from "./client.js";
-import { labelled, make, makeButton, makeSelect, prefersLessMotion } from "./dom.js";
+import { labelled, make, makeButton, makeLegend, makeSelect, prefersLessMotion } from "./dom.js";
 import { distanceBetween, SENSORS } from "./maze.js";
 import { MazeView } from "./mazeview.js";
 import { PRESETS } from "./presets.js";
 import { STEPS, Walker, WEIGHTS } from "./robot.js";
 
+const DRIVEN = [
+  ["ring", "start"],
+  ["star", "goal"],
+  ["stroke", "path"],
+  ["sight", "how far it is to a wall"],
+];
 const PAUSE = 60; // milliseconds between two steps
 const DIRECTIONS = { right: [0, 1], left: [0, -1], down: [1, 0], up: [-1, 0] };
 
@@ -47,6 +53,7 @@ export class DriveView {
         "div",
         {},
         this.view.element,
+        makeLegend(DRIVEN),
         make(
           "div",
           { class: "controls" },

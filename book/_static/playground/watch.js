@@ -3,12 +3,21 @@
 import { PARAMETERS } from "./algorithms.js";
 import { LineChart, ObjectiveSquare } from "./chart.js";
 import { checkedInteger, MOST } from "./checks.js";
-import { labelled, make, makeButton, makeSelect, prefersLessMotion } from "./dom.js";
+import { labelled, make, makeButton, makeLegend, makeSelect, prefersLessMotion } from "./dom.js";
 import { cellsText } from "./drive.js";
 import { kindOf, makeAlgorithmChoice, makeParameterFields, makeSeedFields, number3, titleOf } from "./fields.js";
 import { Panel } from "./panel.js";
 
 const SPEEDS = [1, 2, 5, 10, 30, 100, Infinity]; // generations a second
+const WATCHED = [
+  ["ring", "start"],
+  ["star", "goal"],
+  ["dot", "where robots of this generation ended (larger: several)"],
+  ["faint", "archive"],
+  ["stroke", "path of the best robot so far"],
+  ["dashes", "how its end moved from generation to generation"],
+  ["looked", "the robot looked at, and its nearest neighbours"],
+];
 const MOST_SUMMANDS = 30; // of a novelty that are written out
 const FRAME = 40; // milliseconds between two pictures, at the least
 const CALM_FRAME = 1000; // the same, where the reader asks for less motion
@@ -79,7 +88,7 @@ export class WatchView {
       make(
         "div",
         { class: "stage" },
-        make("div", {}, this.row, makeLegend()),
+        make("div", {}, this.row, makeLegend(WATCHED)),
         make(
           "div",
           {},
@@ -339,23 +348,4 @@ export class WatchView {
       makeButton("Drive this robot", () => this.store.set({ controller: inspected.controller, view: "drive" })),
     ];
   }
-}
-
-function makeLegend() {
-  const entries = [
-    ["ring", "start"],
-    ["star", "goal"],
-    ["dot", "where robots of this generation ended (larger: several)"],
-    ["faint", "archive"],
-    ["stroke", "path of the best robot so far"],
-    ["dashes", "how its end moved from generation to generation"],
-    ["looked", "the robot looked at, and its nearest neighbours"],
-  ];
-  return make(
-    "ul",
-    { class: "legend" },
-    ...entries.map(([kind, text]) =>
-      make("li", {}, make("span", { class: `key ${kind}`, "aria-hidden": "true" }), text),
-    ),
-  );
 }
