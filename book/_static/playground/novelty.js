@@ -88,9 +88,9 @@ export class Archive {
 
   /** Become equal to another archive of the same capacity and dimensions. */
   copyFrom(other) {
-    this.points.set(other.points);
-    this.scores.set(other.scores);
-    this.entry.set(other.entry);
+    this.points.set(other.points.subarray(0, other.size * other.dimensions));
+    this.scores.set(other.scores.subarray(0, other.size));
+    this.entry.set(other.entry.subarray(0, other.size));
     this.size = other.size;
     this.entered = other.entered;
     this.lowest = other.lowest;

@@ -18,7 +18,7 @@ import { drawingOf, parseMaze } from "./maze.js";
 import { MAZES } from "./mazes.js";
 import { PRESETS } from "./presets.js";
 import { RunsView } from "./runs.js";
-import { Store } from "./store.js";
+import { SETTINGS, Store } from "./store.js";
 import { WatchView } from "./watch.js";
 
 const TABS = [
@@ -135,7 +135,7 @@ export function mount(element, { state = {}, makeWorker, onChange = () => {}, ad
       for (const [name, view] of Object.entries(views)) if (name !== store.state.view) view.pause();
       showTab();
     }
-    if (names.some((name) => ["maze", "algorithms", "seed", "parameters"].includes(name))) {
+    if (names.some((name) => SETTINGS.includes(name))) {
       problem.hidden = true;
       welcome.hidden = true;
     }

@@ -7,9 +7,9 @@ import { Client } from "./client.js";
 import { labelled, make, makeButton } from "./dom.js";
 import { kindOf, makeAlgorithmChoice, makeParameterFields, makeSeedFields, makeSwatch, titleOf } from "./fields.js";
 import { wilsonInterval } from "./interval.js";
+import { SETTINGS } from "./store.js";
 
 const MOST_WORKERS = 8;
-const SETTINGS = ["maze", "algorithms", "seed", "parameters"];
 
 export class RunsView {
   constructor(store, { complain, report, makeWorker }) {
@@ -77,23 +77,21 @@ export class RunsView {
         ),
       ),
     );
-    this.#draw();
   }
 
   show() {
     const { state } = this.store;
     if (state.view !== "runs") return;
-    this.#draw();
     const { left } = this;
     this.left = null;
-    if (left?.opened === state.seed) this.store.set({ algorithms: left.algorithms, seed: left.seed });
-    else if (SETTINGS.some((name) => state[name] !== this.settings[name])) {
+    if (left?.opened === state.seed) return this.store.set({ algorithms: left.algorithms, seed: left.seed });
+    if (SETTINGS.some((name) => state[name] !== this.settings[name])) {
       this.pause();
       this.settings = Object.fromEntries(SETTINGS.map((name) => [name, state[name]]));
       this.outcomes = [];
       this.body.replaceChildren();
-      this.#draw();
     }
+    this.#draw();
   }
 
   get isRunning() {

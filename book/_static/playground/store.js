@@ -1,5 +1,7 @@
 // What all parts of a playground share: its state, and who wants to know of changes.
 
+export const SETTINGS = ["maze", "algorithms", "seed", "parameters"]; // the parts of a state that make a run
+
 /** state: { view, maze, algorithms, seed, parameters, generation, runs, controller, result }. */
 export class Store {
   constructor(state) {

@@ -7,6 +7,7 @@ import { labelled, make, makeButton, makeLegend, makeSelect, prefersLessMotion }
 import { cellsText } from "./drive.js";
 import { kindOf, makeAlgorithmChoice, makeParameterFields, makeSeedFields, number3, titleOf } from "./fields.js";
 import { Panel } from "./panel.js";
+import { SETTINGS } from "./store.js";
 
 const SPEEDS = [1, 2, 5, 10, 30, 100, Infinity]; // generations a second
 const WATCHED = [
@@ -105,7 +106,7 @@ export class WatchView {
 
   show(names) {
     const { state } = this.store;
-    const isOther = names.some((name) => ["maze", "algorithms", "seed", "parameters"].includes(name));
+    const isOther = names.some((name) => SETTINGS.includes(name));
     const isElsewhere = names.includes("generation") && state.generation !== this.#shown();
     if (isOther || isElsewhere) this.isStale = true;
     if (this.isStale && state.view === "watch") this.#open();

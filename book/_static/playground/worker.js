@@ -58,7 +58,7 @@ function report(evolution, generations, milliseconds = Infinity) {
     route: evolution.route(evolution.best.controller),
     end: evolution.best.endpoint,
     ends: rowsOf(evolution.endpoints, 2),
-    archive: rowsOf(evolution.archive.points, 2).slice(0, evolution.archive.size),
+    archive: rowsOf(evolution.archive.points.subarray(0, 2 * evolution.archive.size), 2),
     objectives: rowsOf(evolution.objectives, COMPONENTS.length),
     winners: evolution.isRandomSearch ? [] : [...evolution.winners],
   };
