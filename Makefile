@@ -37,10 +37,10 @@ test: .venv/installed-for-tests ## everything from nothing: environment, the tes
 	$(BOUNDS_CHECKED) $(BIN)/pytest $(KERNEL_TESTS)
 
 fuzz: .venv/installed-for-fuzzing ## CASES malformed inputs (100000), with bounds checking
-	$(BOUNDS_CHECKED) $(BIN)/python -m tests.fuzz $(CASES)
+	$(BOUNDS_CHECKED) $(BIN)/python -m tests.helpers.fuzz $(CASES)
 	@if $(BIN)/python -c 'import atheris' 2>/dev/null; then set -x; \
-		$(BOUNDS_CHECKED) $(BIN)/python -m tests.fuzz_atheris "maze texts" 20000 && \
-		$(BOUNDS_CHECKED) $(BIN)/python -m tests.fuzz_atheris "damaged stores" 2000; \
+		$(BOUNDS_CHECKED) $(BIN)/python -m tests.helpers.fuzz_atheris "maze texts" 20000 && \
+		$(BOUNDS_CHECKED) $(BIN)/python -m tests.helpers.fuzz_atheris "damaged stores" 2000; \
 	else echo "No wheel of atheris for this system: without the cases that it would make up."; fi
 
 bench: .venv/installed-for-tests ## time the parts, the paper's experiments and their peers, with RUNS runs of each (500)

@@ -13,7 +13,7 @@ import numpy as np
 
 from safe import Maze, Parameters, Run
 from safe.algorithms import Algorithm
-from safe.evolution import GOAL, NOVELTY, Seed, Settings, State, _breed_both, _keep_best, _run, _start
+from safe.evolution import GOAL, NOVELTY, Seed, Settings, State, breed_both, keep_best, run_so_far, start_run
 from safe.kernel import kernel
 from safe.maze import MazeArrays
 from safe.robot import READINGS
@@ -21,9 +21,9 @@ from safe.robot import READINGS
 
 def evolve(maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters: Parameters = Parameters()) -> Run:
     """As `safe.evolve`."""
-    state, settings, rng = _start(maze, algorithm, seed, parameters)
+    state, settings, rng = start_run(maze, algorithm, seed, parameters)
     drive(state, settings, rng, *(empty_archive(parameters.archive) for _ in range(2)))
-    return _run(state, settings)
+    return run_so_far(state, settings)
 
 
 class Archive(NamedTuple):
@@ -49,7 +49,7 @@ def drive(
     judged = len(state.objectives) > 0
     while state.number[0] + 1 < settings.generations:
         if state.number[0] >= 0:
-            _breed_both(state, settings, rng)
+            breed_both(state, settings, rng)
         state.number[0] += 1
         for i in range(len(state.genomes)):
             row, column = walk(settings.maze, state.genomes[i], settings.steps)
@@ -61,7 +61,7 @@ def drive(
             rate(state.endpoints, archive, settings.k, True, state.components[NOVELTY])
         if judged:
             judge(state.components, state.objectives, state.fitness, state.winners)
-        _keep_best(state)
+        keep_best(state)
         if settings.evolving:
             rate(state.objectives, objective_archive, settings.k, False, state.objective_fitness)
         if judged and state.best_distance[0] <= settings.success_distance:

@@ -4,7 +4,7 @@ import pytest
 
 from benchmarks.workloads import workload
 from safe import Parameters
-from safe.speed import PARTS
+from safe.companion.speed import PARTS
 
 OF_NOVELTY_SEARCH = [part for part in PARTS if "objective functions" not in part]
 OF = {

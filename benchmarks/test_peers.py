@@ -19,7 +19,7 @@ import safe
 from benchmarks import straightforward, with_deap
 from benchmarks.workloads import SEED, record, workload
 from safe import NoveltyArchive, Parameters
-from tests import oracle
+from tests.helpers import oracle
 
 K, CAPACITY = Parameters().k, Parameters().archive
 

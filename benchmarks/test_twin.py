@@ -11,7 +11,7 @@ import pytest
 import safe
 from benchmarks.workloads import SEED
 from safe import Parameters
-from tests.playground.twin import TWINS, run_of, told
+from tests.helpers.twin import TWINS, run_of, told
 
 
 @pytest.fixture(scope="module", params=[None, *TWINS], ids=lambda twin: "safe" if twin is None else None)

@@ -21,10 +21,10 @@ from safe.evolution import (
     NOVELTY,
     Settings,
     State,
-    _start,
-    _step_by_step,
     advance,
     best_scores,
+    start_run,
+    step_through,
 )
 from safe.kernel import kernel
 from safe.novelty import score_cells, score_points
@@ -55,14 +55,14 @@ class Workload(NamedTuple):
 
 def start(maze: Maze | str, algorithm: str, parameters: Parameters) -> tuple[State, Settings, np.random.Generator]:
     """The beginning of a run that no success will end."""
-    state, settings, rng = _start(maze, algorithm, SEED, parameters)
+    state, settings, rng = start_run(maze, algorithm, SEED, parameters)
     return state, settings._replace(success_distance=-1), rng
 
 
 @lru_cache(maxsize=4)  # 500 generations take some 20 MB
 def record(maze: Maze | str, algorithm: str, parameters: Parameters) -> Recording:
     """A whole run."""
-    run = list(_step_by_step(*start(maze, algorithm, parameters)))
+    run = list(step_through(*start(maze, algorithm, parameters)))
     recorded = ([getattr(generation, name) for generation in run] for name in Recording._fields)
     return Recording(*(np.array(values) if values[0] is not None else np.zeros((0, 0)) for values in recorded))
 
@@ -109,7 +109,7 @@ def robot(state: State, settings: Settings, rng: np.random.Generator, run: Recor
 @kernel
 def novelty(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.endpoints)):
-        score_cells(run.endpoints[g], state.archive, state.crowd, settings.k, state.components[NOVELTY])
+        score_cells(run.endpoints[g], state.archive, state.occupancy, settings.k, state.components[NOVELTY])
 
 
 @kernel

@@ -81,11 +81,11 @@ def main() -> None:
         for notebook in chosen:
             if not notebook.exists():
                 known = ", ".join(path.stem for path in notebooks())
-                raise ValueError(f"notebook must be one of {known}; was {notebook.stem!r}")
+                raise ValueError(f"notebook must be one of {known}; got {notebook.stem!r}")
         given = {name: _value(text) for name, text in options.p}
         known = {name for notebook in chosen for name in papermill.inspect_notebook(notebook)}
         if unknown := given.keys() - known:
-            raise ValueError(f"parameter must be one of {', '.join(sorted(known))}; was {', '.join(sorted(unknown))}")
+            raise ValueError(f"parameter must be one of {', '.join(sorted(known))}; got {', '.join(sorted(unknown))}")
         parameters = requested_parameters() | given
     except ValueError as error:
         parser.error(str(error))

@@ -37,7 +37,7 @@ def requested_parameters() -> dict[str, int]:
     """The parameters that the whole book is executed with; RUNS in the environment sets the number of runs."""
     runs = os.environ.get("RUNS", "500")
     if not runs.isdecimal() or int(runs) < 1:
-        raise ValueError(f"RUNS must be an integer of at least 1; was {runs!r}")
+        raise ValueError(f"RUNS must be an integer of at least 1; got {runs!r}")
     return {"runs": int(runs)}
 
 

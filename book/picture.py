@@ -5,7 +5,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 
 import safe
-from safe import figures
+from safe.results import figures
 
 SEED = 1
 

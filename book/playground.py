@@ -1,4 +1,4 @@
-"""The playground's page: its modules as one script, which works in a page opened as a file, and its stylesheet."""
+"""The playground's page: its modules as one script, which also works in a page opened as a file, and its stylesheet."""
 
 from __future__ import annotations
 
@@ -7,11 +7,10 @@ from pathlib import Path
 from sphinx.application import Sphinx
 from sphinx.util.typing import ExtensionMetadata
 
-from safe import bundle
+from safe.playground import bundle
 
 PAGE = "book/playground"
-SCRIPT = "playground/bundle.js"  # in _static, as is the stylesheet
-STYLE = "playground/playground.css"
+SCRIPT, STYLE = "playground/bundle.js", "playground/playground.css"  # in _static
 _START = """
 (() => {
   const { mount, makeWorker } = playground();
@@ -20,15 +19,16 @@ _START = """
 """
 
 
-def _write_script(app: Sphinx) -> None:
+def _write_files(app: Sphinx) -> None:
     if app.builder.format == "html":
-        script = Path(app.outdir, "_static", SCRIPT)
-        script.parent.mkdir(parents=True, exist_ok=True)
-        script.write_text(bundle.script() + _START, encoding="utf-8")
+        static = Path(app.outdir, "_static")
+        (static / SCRIPT).parent.mkdir(parents=True, exist_ok=True)
+        (static / SCRIPT).write_text(bundle.script() + _START, encoding="utf-8")
+        (static / STYLE).write_text(bundle.stylesheet(), encoding="utf-8")
 
 
 def _read_again(app: Sphinx, env, added: set, changed: set, removed: set) -> list[str]:
-    """Where no page has changed Sphinx copies no static file, and the page would name the script of before."""
+    """If no page has changed Sphinx writes none, and this one would name the script with its old checksum."""
     return [PAGE]
 
 
@@ -39,7 +39,7 @@ def _load(app: Sphinx, pagename: str, templatename: str, context: dict, doctree)
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:
-    app.connect("builder-inited", _write_script)  # before pages are written, which name the script with its checksum
+    app.connect("builder-inited", _write_files)  # before pages are written, which name the files with their checksums
     app.connect("env-get-outdated", _read_again)
     app.connect("html-page-context", _load)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

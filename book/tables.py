@@ -1,10 +1,9 @@
 """Tables of results as tables of the book: captioned, numbered, and to be downloaded as CSV.
 
-A cell of a notebook whose metadata holds `table: {name, caption, stub, class}` shows one table, which carries itself
-along as CSV. Here that CSV becomes a table of the document, with as many columns of headings as `stub` says (1), and
-with a class for its looks beside `results`. It can be referred to by its name, and is a table in print as well. Nothing
-in it is read as markup. Links of its rows to the playground, which `safe.notebook.show_table` lets travel along, are on
-the page alone.
+A notebook cell whose metadata holds `table: {name, caption, stub, class}` shows one table, which carries a CSV copy of
+itself. Here that CSV becomes a table of the document, with `stub` columns of headings (1 by default), and with a class
+for its looks beside `results`. It can be referred to by its name, and is a table in print as well. Nothing in it is
+read as markup. Only the page shows the links of its rows to the playground (see `safe.companion.notebook.show_table`).
 """
 
 from __future__ import annotations
@@ -21,9 +20,9 @@ from sphinx.transforms.post_transforms import SphinxPostTransform
 from sphinx.util.typing import ExtensionMetadata
 
 from executed import EXECUTED, ROOT
+from playground import PAGE as PLAYGROUND
 
 TABLES = EXECUTED / "tables"
-PLAYGROUND = "book/playground"
 WIDEST = 30  # characters of a column that count for its width in print
 
 

@@ -6,11 +6,12 @@ and Their Objective Functions", EuroGP 2019, doi 10.1007/978-3-030-16670-0_10.
 
 from safe.algorithms import ALGORITHMS, Algorithm, Parameters
 from safe.evolution import Generation, Run, evolve, generations
-from safe.experiment import Experiment, run, run_all
-from safe.maze import Maze, load_maze
+from safe.experiments.exchange import merge, verify
+from safe.experiments.experiment import Experiment, run, run_all
+from safe.maze import Maze
+from safe.maze_files import load_maze
 from safe.novelty import NoveltyArchive
 from safe.robot import endpoints, path
-from safe.stores import merge, verify
 from safe.version import __version__
 
 __all__ = [
@@ -37,7 +38,7 @@ __all__ = [
 
 def __getattr__(name: str) -> object:
     if name == "Playground":  # made when it is asked for, since only then anywidget is needed
-        from safe.playground import Playground
+        from safe.playground.widget import Playground
 
         return Playground
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

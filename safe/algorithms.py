@@ -67,7 +67,7 @@ class Algorithm:
         weights = checks.array("objectives", self.objectives, (None, len(COMPONENTS)), or_empty=True)
         object.__setattr__(self, "objectives", tuple(map(tuple, weights.tolist())))
         if self.rating != "none" and (len(weights) == 0 or len(weights) % 2):
-            raise ValueError(f"objectives must be an even number of them where they evolve; was {len(weights)}")
+            raise ValueError(f"objectives must be an even number of them where they evolve; got {len(weights)}")
 
     @property
     def is_random_search(self) -> bool:
@@ -109,7 +109,7 @@ class Parameters:
     >>> Parameters(population=51)
     Traceback (most recent call last):
         ...
-    ValueError: population must be an even number; was 51
+    ValueError: population must be an even number; got 51
     """
 
     population: int = 200  # solutions in a generation
@@ -135,11 +135,11 @@ class Parameters:
             object.__setattr__(self, field.name, value)
         for name in ("population", "objectives", "elites"):
             if getattr(self, name) % 2:
-                raise ValueError(f"{name} must be an even number; was {getattr(self, name)}")
+                raise ValueError(f"{name} must be an even number; got {getattr(self, name)}")
         if self.elites >= min(self.population, self.objectives):
             raise ValueError(
                 f"elites must be fewer than the {self.population} solutions and "
-                f"{self.objectives} objective functions; was {self.elites}"
+                f"{self.objectives} objective functions; got {self.elites}"
             )
 
     @property

@@ -37,7 +37,7 @@ def is_text(value: object) -> bool:
 def text(name: str, value: object) -> str:
     """`value`, which must be a text (see `is_text`)."""
     if not is_text(value):
-        raise ValueError(f"{name} must be a text of printable characters; was {shown(value)}")
+        raise ValueError(f"{name} must be a text of printable characters; got {shown(value)}")
     return value
 
 
@@ -47,7 +47,7 @@ def integer(name: str, value: object, low: int, high: int | None = None) -> int:
     # numpy counts its durations among the integers, and one of them is not a time
     is_integer = isinstance(value, Integral) and not isinstance(value, bool | np.timedelta64)
     if not is_integer or value < low or (high is not None and value > high):
-        raise ValueError(f"{name} must be an integer {allowed}; was {shown(value)}")
+        raise ValueError(f"{name} must be an integer {allowed}; got {shown(value)}")
     return int(value)
 
 
@@ -55,7 +55,7 @@ def probability(name: str, value: object) -> float:
     """`value` as a float in [0, 1]."""
     is_real = isinstance(value, Real) and not isinstance(value, bool)
     if not is_real or not 0 <= value <= 1:
-        raise ValueError(f"{name} must be a number from 0 to 1; was {shown(value)}")
+        raise ValueError(f"{name} must be a number from 0 to 1; got {shown(value)}")
     return float(value)
 
 
@@ -63,7 +63,7 @@ def choice(name: str, value: object, allowed: Collection[str]) -> str:
     """`value`, which must be one of the strings in `allowed`."""
     if not isinstance(value, str) or value not in allowed:
         options = ", ".join(repr(option) for option in allowed)
-        raise ValueError(f"{name} must be one of {options}; was {shown(value)}")
+        raise ValueError(f"{name} must be one of {options}; got {shown(value)}")
     return value
 
 
@@ -87,7 +87,7 @@ def array(
         with np.errstate(over="ignore"):  # a long double may become infinite, which is refused below
             converted = np.array(given, dtype=np.float64, order="C")
     except (TypeError, ValueError, OverflowError):
-        raise ValueError(f"{name} must be an array of numbers; was {shown(value)}") from None
+        raise ValueError(f"{name} must be an array of numbers; got {shown(value)}") from None
     if or_empty and converted.shape == (0,):
         return converted.reshape(0, *shape[1:])
     fits = converted.ndim == len(shape) and all(
@@ -95,11 +95,11 @@ def array(
     )
     if not fits:
         wanted = ", ".join("any" if length is None else str(length) for length in shape)
-        raise ValueError(f"{name} must have the shape ({wanted}); was of shape {converted.shape}")
+        raise ValueError(f"{name} must have the shape ({wanted}); got shape {converted.shape}")
     wrong = ~(np.isfinite(converted) & (converted >= low) & (converted <= high))
     if wrong.any():
         index = tuple(int(i) for i in np.argwhere(wrong)[0])
-        raise ValueError(f"{name} must be finite and in [{low:g}, {high:g}]; was {converted[index]} at index {index}")
+        raise ValueError(f"{name} must be finite and in [{low:g}, {high:g}]; got {converted[index]} at index {index}")
     return converted
 
 

@@ -33,11 +33,11 @@ import numpy as np
 
 from safe import checks
 from safe.algorithms import COMPONENTS, Algorithm, Parameters, get_algorithm
-from safe.kernel import kernel
-from safe.maze import Maze, MazeArrays, load_maze
-from safe.novelty import ArchiveArrays, archived, empty_archive, empty_crowd, score_cells, score_points
+from safe.kernel import kernel, while_compiling
+from safe.maze import Maze, MazeArrays
+from safe.maze_files import load_maze
+from safe.novelty import ArchiveArrays, archived, empty_archive, empty_occupancy, score_cells, score_points
 from safe.operators import Breeding, breed, copy_genomes, draw_genomes
-from safe.progress import while_compiling
 from safe.robot import WEIGHTS, WalkSpace, walk_all, walk_space
 
 RULES = 1  # raised whenever a change alters what any run gives
@@ -108,16 +108,16 @@ def evolve(maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters:
     >>> run.success, run.generation, run.evaluations
     (False, 2, 600)
     """
-    return evolve_unless(np.zeros(1, dtype=bool), maze, algorithm, seed, parameters)
+    return evolve_until_stopped(np.zeros(1, dtype=bool), maze, algorithm, seed, parameters)
 
 
-def evolve_unless(
+def evolve_until_stopped(
     stop: np.ndarray, maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters: Parameters
 ) -> Run | None:
     """`evolve`, for as long as the single value of `stop` is False; None where another thread made it True before."""
     compile_kernels()
-    state, settings, rng = _start(maze, algorithm, seed, parameters)
-    return _run(state, settings) if drive(state, settings, rng, stop) else None
+    state, settings, rng = start_run(maze, algorithm, seed, parameters)
+    return run_so_far(state, settings) if run_to_end(state, settings, rng, stop) else None
 
 
 def compile_kernels() -> None:
@@ -133,7 +133,7 @@ _compiling = threading.Lock()
 def _compile_kernels() -> None:
     parameters = Parameters(population=4, objectives=4, generations=2, archive=2)
     with while_compiling():
-        drive(*_start(Maze.from_drawing("S.G"), "safe", 0, parameters), np.zeros(1, dtype=bool))
+        run_to_end(*start_run(Maze.from_drawing("S.G"), "safe", 0, parameters), np.zeros(1, dtype=bool))
 
 
 def generations(
@@ -150,7 +150,8 @@ def generations(
     2 600
     """
     compile_kernels()
-    return _step_by_step(*_start(maze, algorithm, seed, parameters))  # arguments are checked now, not at the first step
+    begun = start_run(maze, algorithm, seed, parameters)  # arguments are checked now, not at the first step
+    return step_through(*begun)
 
 
 class Settings(NamedTuple):
@@ -177,7 +178,7 @@ class State(NamedTuple):
     fitness: np.ndarray  # float64, (population,)
     winners: np.ndarray  # int64, (population,)
     archive: ArchiveArrays
-    crowd: np.ndarray  # int32: points of the archive in each cell, see `empty_crowd`
+    occupancy: np.ndarray  # int32: points of the archive in each cell, see `empty_occupancy`
     objectives: np.ndarray  # float64, (objective functions, components)
     objective_fitness: np.ndarray  # float64, (objective functions,)
     objective_archive: ArchiveArrays
@@ -191,13 +192,13 @@ class State(NamedTuple):
     walk_space: WalkSpace
 
 
-def _start(
+def start_run(
     maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters: Parameters
 ) -> tuple[State, Settings, np.random.Generator]:
     """The state before the first generation, the settings, and the source of randomness."""
     maze, algorithm = load_maze(maze), get_algorithm(algorithm)
     if not isinstance(parameters, Parameters):
-        raise ValueError(f"parameters must be a Parameters; was {checks.shown(parameters)}")
+        raise ValueError(f"parameters must be a Parameters; got {checks.shown(parameters)}")
     rng = np.random.Generator(np.random.SFC64(seed_sequence(seed)))
 
     genomes = np.empty((parameters.population, WEIGHTS))
@@ -210,7 +211,7 @@ def _start(
     evolving = algorithm.rating == "genotypic novelty"
     if evolving and parameters.elites >= len(objectives):
         raise ValueError(
-            f"elites must be fewer than the {len(objectives)} objective functions; was {parameters.elites}"
+            f"elites must be fewer than the {len(objectives)} objective functions; got {parameters.elites}"
         )
     rates = parameters.tournament, parameters.elites, parameters.crossover, parameters.mutation
     settings = Settings(
@@ -233,7 +234,7 @@ def _start(
         fitness=np.zeros(n),
         winners=np.zeros(n, dtype=np.int64),
         archive=empty_archive(parameters.archive, 2),
-        crowd=empty_crowd(maze.shape),
+        occupancy=empty_occupancy(maze.shape),
         objectives=objectives,
         objective_fitness=np.zeros(m),
         objective_archive=empty_archive(parameters.archive, len(COMPONENTS)),
@@ -257,12 +258,12 @@ def seed_sequence(seed: Seed) -> np.random.SeedSequence:
         words = []
     if not words:
         raise ValueError(
-            f"seed must be a non-negative integer, a sequence of them, or a SeedSequence; was {checks.shown(seed)}"
+            f"seed must be a non-negative integer, a sequence of them, or a SeedSequence; got {checks.shown(seed)}"
         )
     return np.random.SeedSequence(words if isinstance(seed, Sequence) else words[0])
 
 
-def _run(state: State, settings: Settings) -> Run:
+def run_so_far(state: State, settings: Settings) -> Run:
     number = int(state.number[0])
     return Run(
         success=bool(state.best_distance[0] <= settings.success_distance),
@@ -274,13 +275,13 @@ def _run(state: State, settings: Settings) -> Run:
     )
 
 
-def _step_by_step(state: State, settings: Settings, rng: np.random.Generator) -> Iterator[Generation]:
+def step_through(state: State, settings: Settings, rng: np.random.Generator) -> Iterator[Generation]:
     judged = len(state.objectives) > 0
     more = True
     while more:
         more = advance(state, settings, rng)
         yield Generation(
-            **vars(_run(state, settings)),
+            **vars(run_so_far(state, settings)),
             genomes=state.genomes.copy(),
             endpoints=state.endpoints.copy(),
             distances=state.distances.copy(),
@@ -302,7 +303,7 @@ GOAL, NOVELTY = COMPONENTS.index("1 / distance"), COMPONENTS.index("novelty")
 
 
 @kernel
-def drive(state: State, settings: Settings, rng: np.random.Generator, stop: np.ndarray) -> bool:
+def run_to_end(state: State, settings: Settings, rng: np.random.Generator, stop: np.ndarray) -> bool:
     """Run to the end, or until another thread sets `stop`. Has the end been reached?"""
     while advance(state, settings, rng):
         if stop[0]:
@@ -314,10 +315,10 @@ def drive(state: State, settings: Settings, rng: np.random.Generator, stop: np.n
 def advance(state: State, settings: Settings, rng: np.random.Generator) -> bool:
     """Breed the next generation and evaluate it (the first is only evaluated). Is there another after it?"""
     if state.number[0] >= 0:
-        _breed_both(state, settings, rng)
+        breed_both(state, settings, rng)
     state.number[0] += 1
-    _evaluate(state, settings)
-    _keep_best(state)
+    evaluate(state, settings)
+    keep_best(state)
     if settings.evolving:
         # Algorithm 2: the fitness of an objective function is the novelty of its genome
         score_points(state.objectives, state.objective_archive, settings.k, False, state.objective_fitness)
@@ -328,7 +329,7 @@ def advance(state: State, settings: Settings, rng: np.random.Generator) -> bool:
 
 
 @kernel
-def _evaluate(state: State, settings: Settings) -> None:
+def evaluate(state: State, settings: Settings) -> None:
     """End points, components, fitness."""
     walk_all(settings.maze, state.genomes, settings.steps, state.walk_space, state.endpoints)
     goal_row, goal_column = settings.maze.goal
@@ -338,7 +339,7 @@ def _evaluate(state: State, settings: Settings) -> None:
         # at the goal itself 1 / distance has no value: it counts as at distance 1/2
         state.components[GOAL, i] = 1.0 / distance if distance > 0 else 2.0
     if settings.weigh_novelty:
-        score_cells(state.endpoints, state.archive, state.crowd, settings.k, state.components[NOVELTY])
+        score_cells(state.endpoints, state.archive, state.occupancy, settings.k, state.components[NOVELTY])
     if len(state.objectives) > 0:
         best_scores(state.components, state.objectives, state.fitness, state.winners)
 
@@ -353,7 +354,7 @@ def best_scores(components: np.ndarray, objectives: np.ndarray, fitness: np.ndar
     contenders = np.empty(len(objectives), dtype=np.int64)
     m = 0
     for j in range(len(objectives)):
-        if not _is_matched(objectives, j, contenders, m):
+        if not _is_dominated(objectives, j, contenders, m):
             contenders[m] = j
             m += 1
     n = len(fitness)
@@ -374,7 +375,7 @@ def best_scores(components: np.ndarray, objectives: np.ndarray, fitness: np.ndar
 
 
 @kernel
-def _is_matched(objectives: np.ndarray, j: int, contenders: np.ndarray, m: int) -> bool:
+def _is_dominated(objectives: np.ndarray, j: int, contenders: np.ndarray, m: int) -> bool:
     """Does one of the first m contenders weigh every component at least as much as the j-th objective function does?"""
     for e in range(m):
         weighs_more = False
@@ -386,7 +387,7 @@ def _is_matched(objectives: np.ndarray, j: int, contenders: np.ndarray, m: int) 
 
 
 @kernel
-def _keep_best(state: State) -> None:
+def keep_best(state: State) -> None:
     """Keep the first solution that is nearer to the goal than all before it."""
     for i in range(len(state.distances)):
         if state.distances[i] < state.best_distance[0]:
@@ -399,7 +400,7 @@ def _keep_best(state: State) -> None:
 
 
 @kernel
-def _breed_both(state: State, settings: Settings, rng: np.random.Generator) -> None:
+def breed_both(state: State, settings: Settings, rng: np.random.Generator) -> None:
     """The next generation of solutions and, where they evolve, of objective functions."""
     if len(state.objectives) == 0:
         draw_genomes(rng, settings.breeding.low, settings.breeding.high, state.genomes)

@@ -130,7 +130,7 @@ def empty_archive(capacity: int, dimensions: int) -> ArchiveArrays:
     )
 
 
-def empty_crowd(shape: tuple[int, int]) -> np.ndarray:
+def empty_occupancy(shape: tuple[int, int]) -> np.ndarray:
     """How many points are in each cell of a maze (none), with a margin of RINGS around it that never holds any."""
     return np.zeros((shape[0] + 2 * RINGS, shape[1] + 2 * RINGS), dtype=np.int32)
 
@@ -154,49 +154,49 @@ def archived(archive: ArchiveArrays) -> tuple[np.ndarray, np.ndarray]:
 
 
 @kernel
-def score_cells(cells: np.ndarray, archive: ArchiveArrays, crowd: np.ndarray, k: int, scores: np.ndarray) -> None:
+def score_cells(cells: np.ndarray, archive: ArchiveArrays, occupancy: np.ndarray, k: int, scores: np.ndarray) -> None:
     """Score cells (int64, (n, 2), row and column) by taxicab distance, in order, offering each to the archive.
 
-    `crowd` (see `empty_crowd`) counts the archive's points in each cell, before and after.
+    `occupancy` (see `empty_occupancy`) counts the archive's points in each cell, before and after.
     """
     n = len(cells)
     for i in range(n):
-        crowd[RINGS + cells[i, 0], RINGS + cells[i, 1]] += 1
+        occupancy[RINGS + cells[i, 0], RINGS + cells[i, 1]] += 1
     size = archive.counts[0]
     threshold = threshold_of(archive)
     for i in range(n):
         row, column = cells[i, 0], cells[i, 1]
         wanted = min(k, n - 1 + size)
-        total = _sum_over_rings(RINGS + row, RINGS + column, crowd, wanted)
+        total = _sum_over_rings(RINGS + row, RINGS + column, occupancy, wanted)
         if total < 0:
-            total = _sum_over_all(row, column, crowd, cells, archive.points, size, wanted)
+            total = _sum_over_all(row, column, occupancy, cells, archive.points, size, wanted)
         scores[i] = total / k
         if scores[i] > threshold:
             place = vacate(archive)
             if place < size:
-                crowd[RINGS + int(archive.points[0, place]), RINGS + int(archive.points[1, place])] -= 1
-            crowd[RINGS + row, RINGS + column] += 1
+                occupancy[RINGS + int(archive.points[0, place]), RINGS + int(archive.points[1, place])] -= 1
+            occupancy[RINGS + row, RINGS + column] += 1
             enter(archive, place, cells[i], scores[i])
             size = archive.counts[0]
             threshold = threshold_of(archive)
     for i in range(n):
-        crowd[RINGS + cells[i, 0], RINGS + cells[i, 1]] -= 1
+        occupancy[RINGS + cells[i, 0], RINGS + cells[i, 1]] -= 1
 
 
 @kernel
-def _sum_over_rings(row: int, column: int, crowd: np.ndarray, wanted: int) -> int:
+def _sum_over_rings(row: int, column: int, occupancy: np.ndarray, wanted: int) -> int:
     """The summed distances from a point to the `wanted` nearest others; -1 if they are not all within the rings."""
-    found = crowd[row, column] - 1  # without the point itself
+    found = occupancy[row, column] - 1  # without the point itself
     total = 0
     for radius in range(1, RINGS + 1):
         if found >= wanted:
             return total
         on_ring = 0
         for step in range(radius):  # along the four sides of the ring at once
-            on_ring += crowd[index(row - radius + step), index(column + step)]
-            on_ring += crowd[index(row + step), index(column + radius - step)]
-            on_ring += crowd[index(row + radius - step), index(column - step)]
-            on_ring += crowd[index(row - step), index(column - radius + step)]
+            on_ring += occupancy[index(row - radius + step), index(column + step)]
+            on_ring += occupancy[index(row + step), index(column + radius - step)]
+            on_ring += occupancy[index(row + radius - step), index(column - step)]
+            on_ring += occupancy[index(row - step), index(column - radius + step)]
         total += radius * min(on_ring, wanted - found)
         found += on_ring
     return total if found >= wanted else -1
@@ -204,10 +204,10 @@ def _sum_over_rings(row: int, column: int, crowd: np.ndarray, wanted: int) -> in
 
 @kernel
 def _sum_over_all(
-    row: int, column: int, crowd: np.ndarray, cells: np.ndarray, archived: np.ndarray, size: int, wanted: int
+    row: int, column: int, occupancy: np.ndarray, cells: np.ndarray, archived: np.ndarray, size: int, wanted: int
 ) -> int:
     """The same sum, by the distances of all cells and of the `size` points of the archive: how many are at each?"""
-    at_distance = np.zeros(crowd.shape[0] + crowd.shape[1], dtype=np.int64)
+    at_distance = np.zeros(occupancy.shape[0] + occupancy.shape[1], dtype=np.int64)
     for j in range(len(cells)):
         at_distance[abs(cells[j, 0] - row) + abs(cells[j, 1] - column)] += 1
     for j in range(size):

@@ -20,7 +20,8 @@ import numpy as np
 
 from safe import checks
 from safe.kernel import index, kernel
-from safe.maze import SENSORS, Maze, MazeArrays, load_maze
+from safe.maze import SENSORS, Maze, MazeArrays
+from safe.maze_files import load_maze
 
 READINGS = len(SENSORS)  # s_1..s_8
 WEIGHTS = 2 * READINGS  # p_1..p_16

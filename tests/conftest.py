@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from safe import Maze
 
-collect_ignore = ["fuzz_atheris.py"]  # a program of its own, for which alone atheris is installed
+collect_ignore = ["helpers/fuzz_atheris.py"]  # a program of its own, for which alone atheris is installed
 
 # the first call compiles, so no example has a deadline
 settings.register_profile("default", deadline=None, suppress_health_check=[HealthCheck.too_slow])

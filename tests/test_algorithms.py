@@ -34,19 +34,19 @@ def test_the_papers_parameters():
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        ({"name": ""}, "name must be a text of printable characters; was ''"),
-        ({"rating": "by taste"}, "rating must be one of 'none', 'genotypic novelty'; was 'by taste'"),
-        ({"objectives": [(1, 0, 0)]}, r"objectives must have the shape \(any, 2\); was of shape \(1, 3\)"),
-        ({"objectives": (1, 0)}, r"objectives must have the shape \(any, 2\); was of shape \(2,\)"),
+        ({"name": ""}, "name must be a text of printable characters; got ''"),
+        ({"rating": "by taste"}, "rating must be one of 'none', 'genotypic novelty'; got 'by taste'"),
+        ({"objectives": [(1, 0, 0)]}, r"objectives must have the shape \(any, 2\); got shape \(1, 3\)"),
+        ({"objectives": (1, 0)}, r"objectives must have the shape \(any, 2\); got shape \(2,\)"),
         ({"objectives": [(1, float("inf"))]}, "objectives must be finite"),
         ({"objectives": [(1e308, -1e308)]}, "objectives must be finite"),  # the sum of infinities is no score
         (
             {"objectives": [(1, 0)] * 3, "rating": "genotypic novelty"},
-            "objectives must be an even number of them where they evolve; was 3",
+            "objectives must be an even number of them where they evolve; got 3",
         ),
         (
             {"objectives": [], "rating": "genotypic novelty"},
-            "objectives must be an even number of them where they evolve; was 0",
+            "objectives must be an even number of them where they evolve; got 0",
         ),
         ({"objectives": 7}, "objectives must"),
     ],
@@ -66,14 +66,14 @@ def test_bad_parameters(name, value):
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        ({"population": 199}, "population must be an even number; was 199"),
-        ({"objectives": 3}, "objectives must be an even number; was 3"),
-        ({"elites": 1}, "elites must be an even number; was 1"),
-        ({"elites": 200}, "elites must be fewer than the 200 solutions and 200 objective functions; was 200"),
-        ({"k": 0}, "k must be an integer from 1 to 1000000; was 0"),
+        ({"population": 199}, "population must be an even number; got 199"),
+        ({"objectives": 3}, "objectives must be an even number; got 3"),
+        ({"elites": 1}, "elites must be an even number; got 1"),
+        ({"elites": 200}, "elites must be fewer than the 200 solutions and 200 objective functions; got 200"),
+        ({"k": 0}, "k must be an integer from 1 to 1000000; got 0"),
         ({"generations": 0}, "generations must be an integer from 1"),
-        ({"crossover": 1.01}, "crossover must be a number from 0 to 1; was 1.01"),
-        ({"steps": 1.5}, "steps must be an integer from 1 to 1000000; was 1.5"),
+        ({"crossover": 1.01}, "crossover must be a number from 0 to 1; got 1.01"),
+        ({"steps": 1.5}, "steps must be an integer from 1 to 1000000; got 1.5"),
     ],
 )
 def test_bad_values(arguments, complaint):

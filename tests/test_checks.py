@@ -21,13 +21,13 @@ def test_a_value_is_shown_in_one_short_line(value, text):
 def test_an_integer_of_more_digits_than_python_writes_is_shown_by_its_type():
     assert checks.shown(10**5000) == "a value of type int"
     assert checks.shown([10**5000]) == "a value of type list"
-    with pytest.raises(ValueError, match="n must be an integer of at least 0; was a value of type int"):
+    with pytest.raises(ValueError, match="n must be an integer of at least 0; got a value of type int"):
         checks.integer("n", -(10**5000), 0)
 
 
 @pytest.mark.parametrize("value", [10, np.timedelta64(3, "s"), np.timedelta64("NaT", "s"), True, 3.0, "3"])
 def test_what_is_no_integer_in_the_range(value):
-    with pytest.raises(ValueError, match="n must be an integer from 0 to 9; was"):
+    with pytest.raises(ValueError, match="n must be an integer from 0 to 9; got"):
         checks.integer("n", value, 0, 9)
 
 
@@ -48,13 +48,13 @@ def test_what_is_no_integer_in_the_range(value):
     ],
 )
 def test_what_is_no_array_of_numbers(value):
-    with pytest.raises(ValueError, match="x must be an array of numbers; was"):
+    with pytest.raises(ValueError, match="x must be an array of numbers; got"):
         checks.array("x", value, (None,))
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, 1e308, -1e308, np.finfo(np.longdouble).max])
 def test_numbers_whose_squares_are_not_finite(value):
-    with pytest.raises(ValueError, match=r"x must be finite and in \[-1e\+100, 1e\+100\]; was .* at index \(0,\)"):
+    with pytest.raises(ValueError, match=r"x must be finite and in \[-1e\+100, 1e\+100\]; got .* at index \(0,\)"):
         checks.array("x", np.array([value]), (None,))
 
 
@@ -67,5 +67,5 @@ def test_numbers_of_all_kinds_make_an_array():
 
 @pytest.mark.parametrize("value", ["", "a\nb", "\0", "\udcff", None, 7, b"a"])
 def test_texts_that_cannot_be_shown_everywhere(value):
-    with pytest.raises(ValueError, match="name must be a text of printable characters; was"):
+    with pytest.raises(ValueError, match="name must be a text of printable characters; got"):
         checks.text("name", value)

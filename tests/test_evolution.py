@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 import safe
 from safe import Algorithm, Parameters, evolve, generations
 from safe.evolution import RULES
-from tests import oracle
 from tests.conftest import mazes
-from tests.golden import FILE, golden_runs, outcome
+from tests.helpers import oracle
+from tests.helpers.golden import FILE, golden_runs, outcome
 
 SMALL = Parameters(population=20, objectives=10, generations=12, archive=60, k=4, steps=40)
 EVOLVING = [name for name in safe.ALGORITHMS if name != "random"]
@@ -170,19 +170,19 @@ def test_at_the_goal_the_component_is_two():
         ({"maze": "maze3"}, "maze must be one of 'maze1', 'maze2'"),
         (
             {"algorithm": "saef"},
-            "algorithm must be one of 'standard', 'novelty', 'safe', 'fixed', 'random'; was 'saef'",
+            "algorithm must be one of 'standard', 'novelty', 'safe', 'fixed', 'random'; got 'saef'",
         ),
         ({"algorithm": None}, "algorithm must be one of"),
-        ({"seed": -1}, "seed must be a non-negative integer, a sequence of them, or a SeedSequence; was -1"),
+        ({"seed": -1}, "seed must be a non-negative integer, a sequence of them, or a SeedSequence; got -1"),
         ({"seed": 0.5}, "seed must be"),
         ({"seed": None}, "seed must be"),
         ({"seed": []}, "seed must be"),
         ({"seed": [1, -2]}, "seed must be"),
         ({"seed": "1"}, "seed must be"),
-        ({"parameters": None}, "parameters must be a Parameters; was None"),
+        ({"parameters": None}, "parameters must be a Parameters; got None"),
         (
             {"algorithm": Algorithm("two", [(1, 0), (0, 1)], rating="genotypic novelty")},
-            "elites must be fewer than the 2 objective functions; was 2",
+            "elites must be fewer than the 2 objective functions; got 2",
         ),
     ],
 )

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import safe
-from tests import fuzz
+from tests.helpers import fuzz
 
 CASES = 3000  # of all targets together
 SOURCES = sorted(Path(safe.__file__).parent.glob("*.py"))

@@ -31,7 +31,7 @@ KERNELS = {
 
 
 def test_there_are_kernels():
-    assert {"safe.robot.walk", "safe.novelty.score_cells", "safe.evolution.drive"} <= set(KERNELS)
+    assert {"safe.robot.walk", "safe.novelty.score_cells", "safe.evolution.run_to_end"} <= set(KERNELS)
 
 
 @pytest.mark.parametrize("kernel", KERNELS.values(), ids=KERNELS)

@@ -7,9 +7,10 @@ import pytest
 from hypothesis import given
 
 from safe import Maze, load_maze
-from safe.maze import SENSORS, load_mazes, maze_names, parse_maze, ways_to_goal
-from tests import oracle
+from safe.maze import SENSORS, ways_to_goal
+from safe.maze_files import load_mazes, maze_names, parse_maze
 from tests.conftest import mazes
+from tests.helpers import oracle
 
 DIGESTS = {  # of 100 lines of 100 characters: 0 open, 1 wall, 2 start, 3 goal
     "maze1": "6d6e7a511392fc8b9bc2c6ef9c0173abe4c5dc610cfd83a3dd3b939a4ccefcfc",
@@ -119,13 +120,13 @@ def test_sensors_are_those_of_the_oracle_in_every_cell(maze):
 
 
 BAD_DRAWINGS = [
-    ("", "at least one row; was empty"),
-    ("S..\n..", "rectangle; was 2 cells wide in row 2, 3 in row 1"),
-    ("S.?G", r"only . 0 # 1 S 2 G 3; was '\?' in row 1"),
-    ("S...", "exactly one goal; had 0"),
-    ("...G", "exactly one start; had 0"),
-    ("S.SG", "exactly one start; had 2"),
-    ("S#G", r"goal must be reachable from the start \(0, 0\) through open cells; was \(0, 2\)"),
+    ("", "at least one row; got none"),
+    ("S..\n..", "rectangle; got 2 cells wide in row 2, 3 in row 1"),
+    ("S.?G", r"only . 0 # 1 S 2 G 3; got '\?' in row 1"),
+    ("S...", "exactly one goal; got 0"),
+    ("...G", "exactly one start; got 0"),
+    ("S.SG", "exactly one start; got 2"),
+    ("S#G", r"goal must be reachable from the start \(0, 0\) through open cells; got \(0, 2\)"),
     ("S#\n#G", "goal must be reachable"),
 ]
 
@@ -138,21 +139,21 @@ def test_bad_drawings(text, complaint):
 
 GOOD = "size 3,3\nstart 0,0\ngoal 2,2\n"
 BAD_LISTS = [
-    (GOOD.replace("goal 2,2\n", ""), "must give the goal; had none"),
-    (GOOD.replace("start 0,0\n", ""), "must give the start; had none"),
-    (GOOD + "size 3,3", "size must be given once; was given again in line 4"),
-    (GOOD + "door 1,1", "must begin with size, start, goal or wall; was 'door' in line 4"),
-    (GOOD + "wall 1,1", "wall must be followed by row,column row,column; was not in line 4"),
-    (GOOD + "wall 1,1 1,x", "wall must be followed by row,column row,column; was '1,x' in line 4"),
-    (GOOD + "wall 0,1 -1,1", "was '-1,1' in line 4"),
-    (GOOD + "wall 1,1 1,3", "wall must lie within the 3 by 3 cells; was at 1,3 in line 4"),
-    (GOOD + "wall 0,1 2,2", "wall must be horizontal, vertical or diagonal; was not in line 4"),
-    (GOOD + "wall 0,0 0,1", r"start must be an open cell; was \(0, 0\), which is wall"),
-    (GOOD + "wall 2,2 2,2", r"goal must be an open cell; was \(2, 2\), which is wall"),
+    (GOOD.replace("goal 2,2\n", ""), "must give the goal; got none"),
+    (GOOD.replace("start 0,0\n", ""), "must give the start; got none"),
+    (GOOD + "size 3,3", "size must be given once; got it again in line 4"),
+    (GOOD + "door 1,1", "must begin with size, start, goal or wall; got 'door' in line 4"),
+    (GOOD + "wall 1,1", "wall must be followed by row,column row,column; got something else in line 4"),
+    (GOOD + "wall 1,1 1,x", "wall must be followed by row,column row,column; got '1,x' in line 4"),
+    (GOOD + "wall 0,1 -1,1", "got '-1,1' in line 4"),
+    (GOOD + "wall 1,1 1,3", "wall must lie within the 3 by 3 cells; got 1,3 in line 4"),
+    (GOOD + "wall 0,1 2,2", "wall must be horizontal, vertical or diagonal; got something else in line 4"),
+    (GOOD + "wall 0,0 0,1", r"start must be an open cell; got \(0, 0\), which is wall"),
+    (GOOD + "wall 2,2 2,2", r"goal must be an open cell; got \(2, 2\), which is wall"),
     (GOOD + "wall 0,1 2,1", "goal must be reachable"),
-    (GOOD.replace("2,2", "0,0"), "goal must be another cell than the start"),
-    (GOOD.replace("2,2", "3,0"), r"goal must be a \(row, column\) within the 3 by 3 cells; was \(3, 0\)"),
-    (GOOD.replace("3,3", "0,3"), "size must be 1 to 2048 cells a side; was 0,3"),
+    (GOOD.replace("2,2", "0,0"), "goal must differ from the start"),
+    (GOOD.replace("2,2", "3,0"), r"goal must be a \(row, column\) within the 3 by 3 cells; got \(3, 0\)"),
+    (GOOD.replace("3,3", "0,3"), "size must be 1 to 2048 cells a side; got 0,3"),
     (GOOD.replace("3,3", "9999,9999"), "size must be 1 to 2048 cells a side"),
     (GOOD.replace("3,3", "9999999999999,3"), "size must be followed by height,width"),
 ]
@@ -191,13 +192,13 @@ def test_bad_names(name):
 @pytest.mark.parametrize("text", [None, 7, b"S.G", ["S.G"]])
 def test_a_maze_from_what_is_no_text(text):
     for parse in (Maze.from_drawing, parse_maze):
-        with pytest.raises(ValueError, match="text must be a str; was"):
+        with pytest.raises(ValueError, match="text must be a str; got"):
             parse(text)
 
 
 @pytest.mark.parametrize("name", ["", "a\nb", "\udcff", None, 7])
 def test_a_maze_whose_name_no_store_or_page_could_hold(name):
-    with pytest.raises(ValueError, match="name must be a text of printable characters; was"):
+    with pytest.raises(ValueError, match="name must be a text of printable characters; got"):
         Maze([[0, 0]], (0, 0), (0, 1), name)
 
 
@@ -211,7 +212,7 @@ def test_a_long_line_of_a_maze_file_makes_no_long_message(line):
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="a pipe has a name only on Unix")
 def test_a_pipe_is_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "pipe")
-    with pytest.raises(ValueError, match=r"the path of a maze file; was .* \(not a file\)"):
+    with pytest.raises(ValueError, match=r"the path of a maze file; got .* \(not a file\)"):
         load_maze(tmp_path / "pipe")
 
 
@@ -236,7 +237,7 @@ def test_the_way_to_the_goal_is_one_cell_longer_than_from_the_best_neighbour(maz
 
 @pytest.mark.parametrize("names", ["", "  ", None, 3])
 def test_no_mazes_at_all(names):
-    with pytest.raises(ValueError, match="maze must be one or more mazes, separated by blanks; was"):
+    with pytest.raises(ValueError, match="maze must be one or more mazes, separated by blanks; got"):
         load_mazes(names)
 
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from safe import NoveltyArchive
 from safe.neighbours import smallest
-from tests import oracle
+from tests.helpers import oracle
 
 DISTANCES = {"taxicab": oracle.taxicab, "euclidean": oracle.euclidean}
 

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from safe import NoveltyArchive
-from safe.novelty import RINGS, archived, empty_archive, empty_crowd, score_cells
-from tests import oracle
+from safe.novelty import RINGS, archived, empty_archive, empty_occupancy, score_cells
+from tests.helpers import oracle
 
 DATA = Path(__file__).parent / "data"
 DISTANCES = {"taxicab": oracle.taxicab, "euclidean": oracle.euclidean}
@@ -30,10 +30,10 @@ def test_every_reference_score(points, scores, metric):
 def test_every_reference_score_by_counting_cells():
     with np.load(DATA / "novelty.npz") as reference:
         generations, expected = reference["endpoints"].astype(np.int64), reference["endpoint_novelty"]
-    archive, crowd = empty_archive(1000, 2), empty_crowd((100, 100))
+    archive, occupancy = empty_archive(1000, 2), empty_occupancy((100, 100))
     for cells, scores in zip(generations, expected, strict=True):
         got = np.empty(len(cells))
-        score_cells(cells, archive, crowd, 15, got)
+        score_cells(cells, archive, occupancy, 15, got)
         np.testing.assert_allclose(got, scores, rtol=0, atol=1e-12)
 
 
@@ -44,16 +44,16 @@ def test_every_reference_score_by_counting_cells():
 )
 def test_counting_cells_gives_the_scores_and_the_archive_of_measuring_points(generations, capacity, k):
     points, cells = NoveltyArchive(capacity, k), empty_archive(capacity, 2)
-    crowd = empty_crowd((8, 8))
+    occupancy = empty_occupancy((8, 8))
     for generation in generations:
         scores = np.empty(len(generation))
-        score_cells(generation, cells, crowd, k, scores)
+        score_cells(generation, cells, occupancy, k, scores)
         assert scores.tolist() == points.score(generation).tolist()
         assert archived(cells)[0].tolist() == points.points.tolist() or len(points) == 0
         assert archived(cells)[1].tolist() == points.scores.tolist()
-        expected = np.zeros_like(crowd)
+        expected = np.zeros_like(occupancy)
         np.add.at(expected, tuple(archived(cells)[0].astype(int).T + RINGS), 1)
-        assert (crowd == expected).all()
+        assert (occupancy == expected).all()
 
 
 def generations_of_points():
@@ -88,11 +88,11 @@ def test_scores_and_archive_are_those_of_the_oracle(generations, capacity, k, me
 
 def test_cells_far_apart_have_the_scores_of_points():
     rng = np.random.default_rng(1)
-    cells, points, crowd = empty_archive(60, 2), NoveltyArchive(60, k=4), empty_crowd((900, 700))
+    cells, points, occupancy = empty_archive(60, 2), NoveltyArchive(60, k=4), empty_occupancy((900, 700))
     for _ in range(4):
         generation = rng.integers(0, (900, 700), (30, 2))
         scores = np.empty(30)
-        score_cells(generation, cells, crowd, 4, scores)
+        score_cells(generation, cells, occupancy, 4, scores)
         assert scores.tolist() == points.score(generation).tolist()
         assert archived(cells)[0].tolist() == points.points.tolist()
 
@@ -141,10 +141,10 @@ def test_without_places_nothing_enters():
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        ({"k": 0}, "k must be an integer from 1 to 1000000; was 0"),
-        ({"k": 1.5}, "k must be an integer from 1 to 1000000; was 1.5"),
-        ({"capacity": -1}, "capacity must be an integer from 0 to 1000000; was -1"),
-        ({"metric": "cosine"}, "metric must be one of 'taxicab', 'euclidean'; was 'cosine'"),
+        ({"k": 0}, "k must be an integer from 1 to 1000000; got 0"),
+        ({"k": 1.5}, "k must be an integer from 1 to 1000000; got 1.5"),
+        ({"capacity": -1}, "capacity must be an integer from 0 to 1000000; got -1"),
+        ({"metric": "cosine"}, "metric must be one of 'taxicab', 'euclidean'; got 'cosine'"),
         ({"metric": None}, "metric must be one of"),
     ],
 )
@@ -171,7 +171,7 @@ def test_points_so_far_apart_that_their_distance_would_be_infinite(metric):
 
 @pytest.mark.parametrize("columns", [0, 1001])
 def test_points_without_a_coordinate_or_with_more_than_an_archive_reserves_memory_for(columns):
-    with pytest.raises(ValueError, match=f"the columns of points must be an integer from 1 to 1000; was {columns}"):
+    with pytest.raises(ValueError, match=f"the columns of points must be an integer from 1 to 1000; got {columns}"):
         NoveltyArchive().score(np.zeros((2, columns)))
 
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from safe.algorithms import Parameters
 from safe.operators import Breeding, breed, crossover, draw_genomes, mutate, tournament
-from tests import oracle
+from tests.helpers import oracle
 
 MANY = 20_000
 

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 import safe
 from safe import Maze
-from tests import oracle
 from tests.conftest import controllers, mazes
+from tests.helpers import oracle
 
 DATA = Path(__file__).parent / "data"
 RIGHT_DOWN, RIGHT_UP = [0.0] * 16, [0.0] * 8 + [-1.0] * 8
@@ -95,9 +95,9 @@ def test_a_path_that_repeats_ends_where_a_plain_walk_ends():
 @pytest.mark.parametrize(
     ("controller", "complaint"),
     [
-        ([0.0] * 15, r"controller must have the shape \(16\); was of shape \(15,\)"),
-        ([[0.0] * 16], r"controller must have the shape \(16\); was of shape \(1, 16\)"),
-        ([0.0] * 15 + [1.5], r"controller must be finite and in \[-1, 1\]; was 1.5 at index \(15,\)"),
+        ([0.0] * 15, r"controller must have the shape \(16\); got shape \(15,\)"),
+        ([[0.0] * 16], r"controller must have the shape \(16\); got shape \(1, 16\)"),
+        ([0.0] * 15 + [1.5], r"controller must be finite and in \[-1, 1\]; got 1.5 at index \(15,\)"),
         ([0.0] * 15 + [np.nan], "controller must be finite"),
         ([-np.inf] + [0.0] * 15, "controller must be finite"),
         (["a"] * 16, "controller must be an array of numbers"),

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.browser import chromium, serving
+from tests.helpers.browser import chromium, serving
 
 ROOT = Path(__file__).parents[2]
 RUNS = "4"

@@ -238,11 +238,11 @@ def test_stale_copies_are_refused(checkout, change):
         (
             ["table2-success", "-p", "run", "5.5"],
             RUNS,
-            "parameter must be one of maze, runs, scheduler, seed, store; was run",
+            "parameter must be one of maze, runs, scheduler, seed, store; got run",
         ),
-        (["table3"], RUNS, "notebook must be one of coefficients, .*; was 'table3'"),
-        ([], "many", "RUNS must be an integer of at least 1; was 'many'"),
-        ([], "0", "RUNS must be an integer of at least 1; was '0'"),
+        (["table3"], RUNS, "notebook must be one of coefficients, .*; got 'table3'"),
+        ([], "many", "RUNS must be an integer of at least 1; got 'many'"),
+        ([], "0", "RUNS must be an integer of at least 1; got '0'"),
     ],
 )
 def test_the_runner_refuses_what_it_does_not_know(checkout, arguments, runs, complaint):

@@ -2,9 +2,9 @@
 
 import json
 
-from safe import bundle
+from safe.playground import bundle
 from tests.book.conftest import execute, output_of
-from tests.browser import complaints_of, needs_browser
+from tests.helpers.browser import complaints_of, needs_browser
 
 
 def test_its_page_alone_loads_it(html):
@@ -38,7 +38,7 @@ def test_a_picture_stands_for_the_widget(checkout):
 
 
 def test_another_script_makes_no_notebook_stale(checkout):
-    module = checkout / "safe" / "javascript" / "engine.js"
+    module = checkout / "safe" / "playground" / "javascript" / "engine.js"
     before = module.read_bytes()
     module.write_bytes(before + b"// changed\n")
     try:

@@ -11,7 +11,7 @@ from urllib.parse import urljoin
 import pytest
 
 from tests.book.conftest import RUNS, build, output_of
-from tests.test_address import run_at, values_of
+from tests.playground.test_address import run_at, values_of
 
 TELL_OF_RUNS = {
     "tab-coefficients",

@@ -9,11 +9,12 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 
 import safe
-from safe import address, comparison, statistics
 from safe.maze import ways_to_goal
+from safe.playground import address
+from safe.results import statistics, tables
 from tests.book.conftest import DESKTOP, PHONE
-from tests.browser import complaints_of, needs_browser
-from tests.test_address import maze_of, run_at
+from tests.helpers.browser import complaints_of, needs_browser
+from tests.playground.test_address import maze_of, run_at
 
 pytestmark = needs_browser
 
@@ -228,11 +229,11 @@ def test_a_robot_that_is_clicked_in_passing_is_one_of_the_generation_that_stays(
 @pytest.mark.parametrize(
     ("field", "value", "message"),
     [
-        ("Run", "-1", "run must be an integer from 0 to 1000000; was -1"),
-        ("Run", "1.5", "run must be an integer from 0 to 1000000; was 1.5"),
-        ("Generation", "10000000000", "generation must be an integer from 0 to 1000000; was 10000000000"),
-        ("population", "7", "population must be an even number; was 7"),
-        ("mutation probability", "2", "mutation must be a number from 0 to 1; was 2"),
+        ("Run", "-1", "run must be an integer from 0 to 1000000; got -1"),
+        ("Run", "1.5", "run must be an integer from 0 to 1000000; got 1.5"),
+        ("Generation", "10000000000", "generation must be an integer from 0 to 1000000; got 10000000000"),
+        ("population", "7", "population must be an even number; got 7"),
+        ("mutation probability", "2", "mutation must be a number from 0 to 1; got 2"),
     ],
 )
 def test_a_number_out_of_range_is_refused_and_what_was_there_comes_back(visit, field, value, message):
@@ -345,7 +346,7 @@ def test_weights_to_start_from(visit):
     choice = page.get_by_role("combobox", name="Weights")
     titles = choice.locator("option").all_inner_texts()
     assert any("wall follower" in title for title in titles)
-    published = statistics.published()
+    published = tables.published()
     for name in ("maze1", "maze2"):
         choice.select_option(label=next(title for title in titles if "Table 3" in title and name in title))
         rows = published[(published.table == "3") & (published.maze == name)].set_index("item")
@@ -506,10 +507,10 @@ def test_a_maze_is_taken_along_and_brought_back(visit, tmp_path, button, name):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("S..\n.x.\n..G", "the drawing of a maze must use only . 0 # 1 S 2 G 3; was 'x' in row 2"),
-        ("<img src=x onerror=alert(1)>", "the drawing of a maze must use only . 0 # 1 S 2 G 3; was '<' in row 1"),
-        ("size 3,3\nstart 0,0", "a maze file must give the goal; had none"),
-        ("", "the drawing of a maze must have at least one row; was empty"),
+        ("S..\n.x.\n..G", "the drawing of a maze must use only . 0 # 1 S 2 G 3; got 'x' in row 2"),
+        ("<img src=x onerror=alert(1)>", "the drawing of a maze must use only . 0 # 1 S 2 G 3; got '<' in row 1"),
+        ("size 3,3\nstart 0,0", "a maze file must give the goal; got none"),
+        ("", "the drawing of a maze must have at least one row; got none"),
     ],
 )
 def test_nonsense_gets_one_clear_line(visit, tmp_path, text, message):
@@ -536,12 +537,12 @@ def test_nonsense_gets_one_clear_line(visit, tmp_path, text, message):
         ("maze=maze9", "maze must be one of 'maze1', 'maze2'"),
         ("algorithm=genetic", "algorithm must be one of 'standard', 'novelty', 'safe'"),
         ("seed=-1", "seed must be an integer"),
-        ("population=7", "population must be an even number; was 7"),
-        ("controller=1,2", "controller must have the shape (16); was of shape (2,)"),
-        ("maze=3x3/0,0/9,9/AAA", "goal must be a (row, column) within the 3 by 3 cells; was (9, 9)"),
+        ("population=7", "population must be an even number; got 7"),
+        ("controller=1,2", "controller must have the shape (16); got shape (2,)"),
+        ("maze=3x3/0,0/9,9/AAA", "goal must be a (row, column) within the 3 by 3 cells; got (9, 9)"),
         ("maze=3x3/0,0/2,2/%E0%A4%A", "an address must be encoded as a browser does"),
-        ("constructor=1", "an address must hold known keys; was 'constructor'"),
-        ("view=<img src=x onerror=alert(1)>", "view must be one of 'watch', 'drive', 'draw', 'runs'; was '<img"),
+        ("constructor=1", "an address must hold known keys; got 'constructor'"),
+        ("view=<img src=x onerror=alert(1)>", "view must be one of 'watch', 'drive', 'draw', 'runs'; got '<img"),
         ("algorithm=<b>bold</b>:none:x", "algorithm must be a name, or name:rating:a,b,..."),
     ],
 )
@@ -615,7 +616,7 @@ def test_many_runs_count_as_the_package_counts(visit):
     for row, name in enumerate(("novelty", "random")):
         runs = [safe.evolve(maze, name, 100 + i, QUICK_PARAMETERS) for i in range(20)]
         successes = sum(run.success for run in runs)
-        low, high = comparison.success_interval(successes, 20)
+        low, high = statistics.success_interval(successes, 20)
         cells = page.locator(".outcomes tbody tr").nth(row).locator("td.number").all_inner_texts()
         rate, low, high = (f"{100 * share:.{int(0 < share < 0.1)}f}" for share in (successes / 20, low, high))
         assert cells == ["20", str(successes), f"{rate} %", f"{low} to {high} %"]

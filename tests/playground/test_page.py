@@ -1,9 +1,9 @@
 """The engine in a page, and not in a worker of it: modules that a page can load, and the same runs."""
 
 import safe
-from tests.browser import needs_browser
+from tests.helpers.browser import needs_browser
+from tests.helpers.twin import IN_PAGE, in_browser, run_of, told
 from tests.playground.test_twin import runs_of_every_kind
-from tests.playground.twin import IN_PAGE, in_browser, run_of, told
 
 
 @needs_browser

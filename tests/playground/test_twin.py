@@ -11,11 +11,12 @@ from hypothesis import strategies as st
 
 import safe
 from safe import Algorithm, Experiment, Maze, NoveltyArchive, Parameters, checks, load_maze
-from safe.maze import MAZE_FOLDER, parse_maze, ways_to_goal
+from safe.maze import ways_to_goal
+from safe.maze_files import MAZE_FOLDER, parse_maze
 from safe.novelty import METRICS
-from tests import fuzz, golden, record
 from tests.conftest import controllers, mazes
-from tests.playground.twin import TWINS, in_node, needs_node, run_of, told
+from tests.helpers import fuzz, golden, record
+from tests.helpers.twin import TWINS, in_node, needs_node, run_of, told
 from tests.test_maze import BAD_DRAWINGS, BAD_LISTS
 from tests.test_novelty import generations_of_points
 from tests.test_robot import reference_endpoints

@@ -1,0 +1,168 @@
+"""Addresses in the playground, the page of the book in which SAFE runs in the browser.
+
+An address is what follows the `#` of the page's address, `key=value&key=value`, and says all that the page shows::
+
+    view         watch a run, or drive a robot by its controller
+    maze         the name of one that comes with the package, or else the cells of any: HEIGHTxWIDTH/row,column of the
+                 start/row,column of the goal/walls, where the walls are bits, row by row, in base64url without padding
+    algorithm    its name in `safe.ALGORITHMS`, or else name:rating:objectives, where the rating is `none` or
+                 `genotypic`, and the objectives are `drawn`, or the weights a,b,a,b,... of each (none: random search)
+    seed         an integer, or several with commas, and behind a slash the spawn key; the run of an experiment has
+                 its digest and the number of the run
+    controller   the sixteen weights, with commas
+    ...          any of `safe.Parameters` by its name, where it departs from the paper's
+
+Numbers are written such that they are read as the very same, and so a run that is opened there is the very same run.
+"""
+
+from __future__ import annotations
+
+import base64
+import re
+from collections.abc import Iterable
+from dataclasses import asdict
+from urllib.parse import quote
+
+import numpy as np
+
+from safe import checks
+from safe.algorithms import ALGORITHMS, Algorithm, Parameters
+from safe.evolution import Seed, seed_sequence
+from safe.experiments.experiment import Experiment
+from safe.maze import Maze
+from safe.maze_files import is_packaged, load_maze
+from safe.robot import WEIGHTS
+
+READABLE = "!~*'(),:/"  # as encodeURIComponent leaves them, and what our values are made of
+_NUMBER = r"(?:0x[0-9a-fA-F]{1,64}|[0-9]{1,80})"
+_SEED = re.compile(rf"({_NUMBER}(?:,{_NUMBER})*)(?:/({_NUMBER}(?:,{_NUMBER})*))?")
+_LARGEST = 2**256 - 1  # number in a seed; the digest of an experiment has as many bits
+_POOL_SIZE = np.random.SeedSequence(0).pool_size  # the only one that the page knows
+_RATINGS = {"none": "none", "genotypic novelty": "genotypic"}
+
+
+def run_address(experiment: Experiment, run: int) -> str:
+    """Where the playground shows one run of an experiment.
+
+    Raises
+    ------
+    ValueError
+        Where the run is not an integer of at least 0.
+
+    Examples
+    --------
+    >>> run_address(Experiment("safe", "maze1", seed=3), 7)[:50]
+    'view=watch&maze=maze1&algorithm=safe&seed=0xc59dd4'
+    >>> run_address(Experiment("safe", "maze1", parameters=Parameters(population=50, mutation=0.1)), 7)[-29:]
+    '/7&population=50&mutation=0.1'
+    """
+    run = checks.integer("run", run, 0)
+    paper = asdict(Parameters())
+    return _address(
+        view="watch",
+        maze=_maze(experiment.maze),
+        algorithm=_algorithm(experiment.algorithm),
+        seed=f"0x{experiment.digest}/{run}",
+        **{name: repr(v) for name, v in asdict(experiment.parameters).items() if v != paper[name]},
+    )
+
+
+def drive_address(maze: Maze | str, controller: np.ndarray | None = None) -> str:
+    """Where the playground lets one drive a robot in a maze, by a controller where one is given.
+
+    Parameters
+    ----------
+    maze : Maze or str
+        The maze, or its name.
+    controller : array of float, shape (16,), optional
+        The weights p_1..p_16, each in [-1, 1], to begin with.
+
+    Raises
+    ------
+    ValueError
+        Where the controller has the wrong length, is not finite or not in [-1, 1].
+
+    Examples
+    --------
+    >>> drive_address("maze2")
+    'view=drive&maze=maze2'
+    >>> drive_address(Maze.from_drawing("S..\\n.#.\\n..G"), [0.5] + [0] * 15)
+    'view=drive&maze=3x3/0,0/2,2/CAA&controller=0.5,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0'
+    """
+    values = {"view": "drive", "maze": _maze(load_maze(maze))}
+    if controller is not None:
+        values["controller"] = _numbers(checks.array("controller", controller, (WEIGHTS,), -1, 1))
+    return _address(**values)
+
+
+def seed_text(seed: Seed) -> str:
+    """A seed as an address gives it.
+
+    Raises
+    ------
+    ValueError
+        Where it is no seed, or one that the page cannot work with: of numbers of more than 256 bits, or with a pool of
+        another size than numpy's.
+
+    Examples
+    --------
+    >>> seed_text(7), seed_text([1, 2]), seed_text(np.random.SeedSequence(2**255, spawn_key=(17,)))[-6:]
+    ('7', '1,2', '000/17')
+    """
+    sequence = seed_sequence(seed)
+    if sequence.pool_size != _POOL_SIZE:
+        raise ValueError(f"seed must have a pool_size of {_POOL_SIZE}; got {sequence.pool_size}")
+    entropy = sequence.entropy if isinstance(sequence.entropy, Iterable) else [sequence.entropy]
+    parts = ([checks.integer("seed", word, 0, _LARGEST) for word in words] for words in (entropy, sequence.spawn_key))
+    return "/".join(",".join(str(word) if word < 2**64 else hex(word) for word in words) for words in parts if words)
+
+
+def read_seed(text: str) -> Seed:
+    """What `seed_text` wrote: an int or a tuple of them; a SeedSequence where there is a spawn key.
+
+    Raises
+    ------
+    ValueError
+        Where the text is another.
+
+    Examples
+    --------
+    >>> read_seed("7"), read_seed("0xff,2"), read_seed("7/17").spawn_key
+    (7, (255, 2), (17,))
+    """
+    found = _SEED.fullmatch(text) if isinstance(text, str) else None
+    if not found:
+        raise ValueError(
+            f"seed must be 7 or 1,2,3, or either followed by a spawn key as in 7/17; got {checks.shown(text)}"
+        )
+    entropy, key = (_read_numbers(part) for part in found.groups(default=""))
+    entropy = entropy if len(entropy) > 1 else entropy[0]
+    return np.random.SeedSequence(entropy, spawn_key=key) if key else entropy
+
+
+def _read_numbers(text: str) -> tuple[int, ...]:
+    return tuple(int(word, 16 if word.startswith("0x") else 10) for word in text.split(",") if word)
+
+
+def _address(**values: str) -> str:
+    return "&".join(f"{key}={quote(value, safe=READABLE)}" for key, value in values.items())
+
+
+def _maze(maze: Maze) -> str:
+    if is_packaged(maze):
+        return maze.name
+    (height, width), start, goal = maze.shape, maze.start, maze.goal
+    bits = base64.urlsafe_b64encode(np.packbits(maze.walls).tobytes()).decode().rstrip("=")
+    return f"{height}x{width}/{start[0]},{start[1]}/{goal[0]},{goal[1]}/{bits}"
+
+
+def _algorithm(algorithm: Algorithm) -> str:
+    if algorithm == ALGORITHMS.get(algorithm.name):
+        return algorithm.name
+    objectives = "drawn" if algorithm.objectives is None else _numbers(np.ravel(algorithm.objectives))
+    name = algorithm.name.replace(":", " ")  # which parts what follows
+    return f"{name}:{_RATINGS[algorithm.rating]}:{objectives}"
+
+
+def _numbers(values: np.ndarray) -> str:
+    return ",".join(map(repr, values.tolist()))

@@ -1,0 +1,118 @@
+"""The playground's JavaScript modules as one text, which runs where modules cannot import one another.
+
+That is in pages opened as files, in widgets, and in workers made of a text. The modules of the folder `javascript`
+keep to a few forms, so that this takes no parser: a line begins with `import { a, b } from "./x.js";`, with `export`
+before a function, const or class, or with `export { a, b } from "./x.js";`; and no two modules declare the same name at
+the beginning of a line.
+"""
+
+from __future__ import annotations
+
+import re
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+from typing import NamedTuple
+
+FOLDER = Path(__file__).with_name("javascript")
+ENTRIES = ("playground.js", "worker.js")  # export `mount`, which shows the playground, and `serve`, for its workers
+
+_FROM = re.compile(r'^(import|export)\s*\{([^{}]*)\}\s*from\s*"\./([^"/]+)";[^\S\n]*\n?', re.MULTILINE)
+_DECLARATION = re.compile(
+    r"^(export\s+)?((?:async\s+)?function\b\s*\*?\s*|(?:const|let|class)\s+)([\w$]+)", re.MULTILINE
+)
+_COMMENT = re.compile(r"^[^\S\n]*(?://.*|/\*\*(?:(?!\*/).|\n)*\*/)\n", re.MULTILINE)  # on lines of its own
+_OTHER_FORM = re.compile(r"^(?:import|export)\b.*|(?<![\w$.#])import\s*(?:\(|\.\s*meta\b).*", re.MULTILINE)
+
+# A worker is made of the text of the very function that makes it: no address need be known.
+_BUNDLE = """\
+function playground() {{
+"use strict";
+
+{modules}
+let address;
+function makeWorker() {{
+  address ??= URL.createObjectURL(new Blob([`(${{playground}})().serve(self)`], {{ type: "text/javascript" }}));
+  return new Worker(address);
+}}
+
+return {{ {exports}, makeWorker }};
+}}
+"""
+
+
+class _Module(NamedTuple):
+    imports: list[tuple[str, set[str]]]  # from which module, which names
+    exports: set[str]
+    names: list[str]  # declared at the beginning of a line
+    body: str  # without imports, exports, and comments that have lines of their own
+
+
+def script(entries: tuple[str, ...] = ENTRIES, folder: Path = FOLDER) -> str:
+    """A JavaScript function `playground()`, which holds all modules and returns what the entries export.
+
+    It also returns `makeWorker()`, which gives a new worker that holds the same and has called `serve(self)`.
+
+    Raises
+    ------
+    ValueError
+        Where a module is missing, is written in another form, imports what is not exported, or imports itself by way
+        of others, or where two declare the same name.
+    """
+    modules = _read_modules(folder, entries)
+    declared_in: dict[str, str] = {}
+    for file, module in modules.items():
+        for other, names in module.imports:
+            if unknown := sorted(names - modules[other].exports):
+                raise ValueError(f"{file} must import what {other} exports; got {', '.join(unknown)}")
+        for name in module.names:
+            if name in declared_in:
+                raise ValueError(f"{file} must not declare {name}; {declared_in[name]} does")
+            declared_in[name] = file
+    needs = {file: [other for other, _ in module.imports] for file, module in modules.items()}
+    try:
+        order = list(TopologicalSorter(needs).static_order())
+    except CycleError as error:
+        raise ValueError(
+            f"modules must not import one another in a circle; got {' from '.join(error.args[1])}"
+        ) from None
+    exports = sorted(set().union(*(modules[entry].exports for entry in entries)))
+    return _BUNDLE.format(modules="\n".join(modules[file].body for file in order), exports=", ".join(exports))
+
+
+def stylesheet(folder: Path = FOLDER) -> str:
+    """The stylesheet of the playground."""
+    return (folder / "playground.css").read_text(encoding="utf-8")
+
+
+def _read_modules(folder: Path, entries: tuple[str, ...]) -> dict[str, _Module]:
+    """The entries and all that they import, by file."""
+    modules = {}
+    wanted = [(entry, "the playground") for entry in entries]
+    while wanted:
+        file, importer = wanted.pop()
+        if file in modules:
+            continue
+        try:
+            text = (folder / file).read_text(encoding="utf-8")
+        except OSError as error:
+            raise ValueError(f"{importer} must import a module in {folder}; got {file} ({error.strerror})") from None
+        modules[file] = _parse(text, file)
+        wanted += [(other, file) for other, _ in modules[file].imports]
+    return modules
+
+
+def _parse(text: str, file: str) -> _Module:
+    imports, exports = [], set()
+    for keyword, listed, other in _FROM.findall(text):
+        names = {name.strip() for name in listed.split(",") if name.strip()}
+        imports.append((other, names))
+        if keyword == "export":
+            exports |= names
+    body = _FROM.sub("", text)
+    declarations = _DECLARATION.findall(body)
+    exports |= {name for exported, _, name in declarations if exported}
+    body = _DECLARATION.sub(r"\2\3", body)
+    if other_form := _OTHER_FORM.search(body):
+        raise ValueError(f"{file} must import and export as {Path(__file__).name} reads it; got {other_form.group()!r}")
+    body = re.sub(r"\n{2,}", "\n", _COMMENT.sub("", body))  # whoever reads it reads the modules; a page loads it
+    return _Module(imports, exports, [name for *_, name in declarations], body)

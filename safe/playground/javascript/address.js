@@ -1,0 +1,185 @@
+// The state of the playground as the part of a page's address behind the #, and back; safe/address.py writes the same.
+
+import { ALGORITHMS, checkedAlgorithm, checkedParameters, PARAMETERS, RATINGS } from "./algorithms.js";
+import { checkedChoice, checkedInteger, checkedRow, InputError, MOST, shown } from "./checks.js";
+import { drawingOf, LONGEST_SIDE, makeMaze, parseMaze } from "./maze.js";
+import { MAZES } from "./mazes.js";
+import { checkedSeed } from "./random.js";
+import { WEIGHTS } from "./robot.js";
+
+export const VIEWS = ["watch", "drive", "draw", "runs"];
+export const MOST_RUNS = 10000;
+const MOST_ALGORITHMS = 8; // side by side
+const RATING_CODES = { none: RATINGS[0], genotypic: RATINGS[1] };
+
+/** The state that an address describes: those of { view, maze, algorithms, seed, parameters, generation, runs,
+ * controller } that it names. Throws an InputError where it cannot be read. */
+export function readAddress(text) {
+  const state = {};
+  const parameters = {};
+  for (const part of text.split("&").filter((part) => part)) {
+    const [key, ...rest] = part.split("=");
+    const value = decoded(rest.join("="));
+    if (key === "view") state.view = checkedChoice("view", value, VIEWS);
+    else if (key === "maze") state.maze = readMaze(value);
+    else if (key === "algorithm") (state.algorithms ??= []).push(readAlgorithm(value));
+    else if (key === "seed") state.seed = readSeed(value);
+    else if (key === "generation") state.generation = checkedInteger(key, readNumber(key, value), 0, MOST);
+    else if (key === "runs") state.runs = checkedInteger(key, readNumber(key, value), 1, MOST_RUNS);
+    else if (key === "controller") state.controller = readController(value);
+    else if (Object.hasOwn(PARAMETERS, key)) parameters[key] = readNumber(key, value);
+    else throw new InputError(`an address must hold known keys; got ${shown(key)}`);
+  }
+  if (state.algorithms?.length > MOST_ALGORITHMS) {
+    throw new InputError(
+      `an address may hold ${MOST_ALGORITHMS} algorithms at the most; got ${state.algorithms.length}`,
+    );
+  }
+  if (Object.keys(parameters).length > 0) {
+    checkedParameters(parameters);
+    state.parameters = parameters;
+  }
+  return state;
+}
+
+/** The address of a state. */
+export function writeAddress({ view, maze, algorithms, seed, parameters, generation, runs, controller }) {
+  const parts = [
+    ["view", view],
+    ["maze", writeMaze(maze)],
+  ];
+  for (const algorithm of algorithms) parts.push(["algorithm", writeAlgorithm(algorithm)]);
+  parts.push(["seed", writeSeed(seed)], ...Object.entries(parameters));
+  if (view === "watch" && generation > 0) parts.push(["generation", generation]);
+  if (view === "drive") parts.push(["controller", controller.join()]);
+  if (view === "runs") parts.push(["runs", runs]);
+  return parts.map(([key, value]) => `${key}=${encoded(String(value))}`).join("&");
+}
+
+/** A seed from a text: an integer or several, perhaps with a spawn key behind a slash. */
+export function readSeed(text) {
+  const lists = text.split("/").map((list) => list.split(","));
+  const isSeed = lists.length <= 2 && lists.flat().every((number) => /^([0-9]{1,80}|0x[0-9a-f]{1,64})$/i.test(number));
+  if (!isSeed) {
+    throw new InputError(`seed must be an integer of at least 0, such as 7; got ${shown(text)}`);
+  }
+  const [entropy, spawnKey = []] = lists.map((list) => list.map(BigInt));
+  return checkedSeed({ entropy, spawnKey });
+}
+
+/** The text of a seed. */
+export function writeSeed({ entropy, spawnKey }) {
+  const number = (value) => (value < 2n ** 64n ? `${value}` : `0x${value.toString(16)}`);
+  return [entropy, spawnKey]
+    .filter((list) => list.length > 0)
+    .map((list) => list.map(number).join())
+    .join("/");
+}
+
+/** The n-th of the seeds that begin with this one: of an experiment's run its n-th run, of an integer the n-th after. */
+export function nthSeed({ entropy, spawnKey }, n) {
+  if (spawnKey.length > 0) return { entropy, spawnKey: [...spawnKey.slice(0, -1), BigInt(n)] };
+  return { entropy: [...entropy.slice(0, -1), entropy.at(-1) + BigInt(n)], spawnKey };
+}
+
+/** A maze of MAZES by its name. */
+export function namedMaze(name) {
+  return parseMaze(MAZES[checkedChoice("maze", name, Object.keys(MAZES))], name);
+}
+
+/** Is this the maze of MAZES that has its name? */
+export function isNamed(maze) {
+  return Object.hasOwn(MAZES, maze.name) && drawingOf(namedMaze(maze.name)) === drawingOf(maze);
+}
+
+/** A maze, by its name where it is one of MAZES. */
+export function known(maze) {
+  return (
+    Object.keys(MAZES)
+      .map((name) => ({ ...maze, name }))
+      .find(isNamed) ?? maze
+  );
+}
+
+/** 16 weights from a text, or from an array of numbers. */
+export function readController(value) {
+  const weights = typeof value === "string" ? value.split(",").map(readWeight) : value;
+  return [...checkedRow("controller", weights, WEIGHTS, -1, 1)];
+}
+
+function readWeight(text) {
+  return text.trim() ? Number(text) : NaN;
+}
+
+function readNumber(name, text) {
+  if (!/^[0-9]{1,9}(\.[0-9]{1,30})?(e-[0-9]{1,3})?$/.test(text))
+    throw new InputError(`${name} must be a number; got ${shown(text)}`);
+  return Number(text);
+}
+
+function readAlgorithm(text) {
+  const [name, rating, objectives, ...more] = text.split(":");
+  if (rating === undefined) return checkedAlgorithm(name);
+  const weights = objectives === "drawn" ? null : objectives ? objectives.split(",").map(readWeight) : [];
+  if (
+    objectives === undefined ||
+    more.length > 0 ||
+    !Object.hasOwn(RATING_CODES, rating) ||
+    (weights !== null && weights.length % 2)
+  ) {
+    throw new InputError(`algorithm must be a name, or name:rating:a,b,...; got ${shown(text)}`);
+  }
+  const pairs = weights?.flatMap((weight, i) => (i % 2 ? [] : [[weight, weights[i + 1]]])) ?? null;
+  return checkedAlgorithm({ name, rating: RATING_CODES[rating], objectives: pairs });
+}
+
+function writeAlgorithm(algorithm) {
+  if (ALGORITHMS[algorithm.name] === algorithm) return algorithm.name;
+  const rating = Object.keys(RATING_CODES).find((code) => RATING_CODES[code] === algorithm.rating);
+  return [algorithm.name, rating, algorithm.objectives?.flat().join() ?? "drawn"].join(":");
+}
+
+function readMaze(text) {
+  if (!text.includes("/")) return namedMaze(text);
+  const match = /^([0-9]{1,4})x([0-9]{1,4})\/([0-9]{1,4}),([0-9]{1,4})\/([0-9]{1,4}),([0-9]{1,4})\/([\w-]*)$/.exec(
+    text,
+  );
+  const numbers = match?.slice(1, 7).map(Number);
+  const [height, width] = numbers ?? [0, 0];
+  const bytes = match ? bytesOf(match[7]) : [];
+  if (!match || Math.max(height, width) > LONGEST_SIDE || bytes.length !== Math.ceil((height * width) / 8)) {
+    throw new InputError(`maze must be a name, or the cells of a maze as an address gives them; got ${shown(text)}`);
+  }
+  const walls = Uint8Array.from({ length: height * width }, (_, cell) => (bytes[cell >> 3] >> (7 - (cell & 7))) & 1);
+  return makeMaze(walls, height, width, numbers.slice(2, 4), numbers.slice(4, 6), "drawn");
+}
+
+function writeMaze(maze) {
+  if (isNamed(maze)) return maze.name;
+  const { height, width, start, goal, walls } = maze;
+  const bytes = new Uint8Array(Math.ceil(walls.length / 8));
+  walls.forEach((wall, cell) => (bytes[cell >> 3] |= wall << (7 - (cell & 7))));
+  const base64 = btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
+  const bits = base64.replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
+  return `${height}x${width}/${start.join()}/${goal.join()}/${bits}`;
+}
+
+function bytesOf(base64) {
+  try {
+    return Uint8Array.from(atob(base64.replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
+  } catch {
+    return [];
+  }
+}
+
+function encoded(text) {
+  return encodeURIComponent(text).replace(/%(2C|3A|2F)/g, (code) => decodeURIComponent(code));
+}
+
+function decoded(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    throw new InputError(`an address must be encoded as a browser does; got ${shown(text)}`);
+  }
+}

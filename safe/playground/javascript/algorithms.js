@@ -1,0 +1,75 @@
+// The paper's algorithms and its Table 1, as data (see safe/algorithms.py).
+//
+// objectives: the objective functions [a, b] of the first generation; null draws as many as the parameters say.
+// rating: how objective functions are rated, and so bred; with "none" they stay as they are.
+
+import { checkedChoice, checkedInteger, checkedProbability, checkedRows, InputError, MOST, shown } from "./checks.js";
+import { ARCHIVE_CAPACITY, K } from "./novelty.js";
+import { STEPS } from "./robot.js";
+
+export const COMPONENTS = ["1 / distance", "novelty"]; // what an objective function weighs
+export const GOAL = 0;
+export const NOVELTY = 1;
+export const RATINGS = ["none", "genotypic novelty"];
+
+export const ALGORITHMS = {
+  standard: { name: "standard", objectives: [[1, 0]], rating: "none" },
+  novelty: { name: "novelty", objectives: [[0, 1]], rating: "none" },
+  safe: { name: "safe", objectives: null, rating: "genotypic novelty" },
+  fixed: { name: "fixed", objectives: [[0.5, 0.5]], rating: "none" },
+  random: { name: "random", objectives: [], rating: "none" },
+};
+
+export const PARAMETERS = {
+  population: 200, // solutions in a generation
+  objectives: 200, // objective functions in a generation, where they evolve
+  generations: 500, // at the most
+  tournament: 5, // individuals drawn for a tournament
+  elites: 2, // fittest individuals that pass on unchanged
+  crossover: 0.8, // probability, for a pair of parents
+  mutation: 0.4, // probability, for an offspring
+  k: K, // nearest neighbours that count for novelty
+  archive: ARCHIVE_CAPACITY, // places in each of the two novelty archives
+  steps: STEPS, // that a robot takes
+  success_distance: 2, // cells, taxicab: an end point this near to the goal is a success
+};
+export const PROBABILITIES = ["crossover", "mutation"];
+const MAY_BE_ZERO = ["elites", "archive", "success_distance"];
+
+/** An algorithm by its name in ALGORITHMS, or one given as { name, objectives, rating }, checked. */
+export function checkedAlgorithm(algorithm) {
+  if (typeof algorithm !== "object" || algorithm === null) {
+    return ALGORITHMS[checkedChoice("algorithm", algorithm, Object.keys(ALGORITHMS))];
+  }
+  const { name, objectives = null, rating = "none" } = algorithm;
+  checkedChoice("rating", rating, RATINGS);
+  if (objectives !== null) {
+    checkedRows("objectives", objectives, COMPONENTS.length);
+    if (rating !== "none" && (objectives.length === 0 || objectives.length % 2)) {
+      throw new InputError(
+        `objectives must be an even number of them where they evolve; got ${objectives.length}`,
+      );
+    }
+  }
+  return { name, objectives, rating };
+}
+
+/** All parameters, the given ones checked, the others as in the paper. */
+export function checkedParameters(given = {}) {
+  for (const name of Object.keys(given)) checkedChoice("the name of a parameter", name, Object.keys(PARAMETERS));
+  const parameters = { ...PARAMETERS, ...given };
+  for (const [name, value] of Object.entries(parameters)) {
+    if (PROBABILITIES.includes(name)) checkedProbability(name, value);
+    else checkedInteger(name, value, MAY_BE_ZERO.includes(name) ? 0 : 1, MOST);
+  }
+  for (const name of ["population", "objectives", "elites"]) {
+    if (parameters[name] % 2) throw new InputError(`${name} must be an even number; got ${shown(parameters[name])}`);
+  }
+  if (parameters.elites >= Math.min(parameters.population, parameters.objectives)) {
+    throw new InputError(
+      `elites must be fewer than the ${parameters.population} solutions and ${parameters.objectives} ` +
+        `objective functions; got ${parameters.elites}`,
+    );
+  }
+  return parameters;
+}

@@ -1,0 +1,198 @@
+// The generational loop, the same for every algorithm (see safe/evolution.py, also for the order of the draws).
+
+import { checkedAlgorithm, checkedParameters, COMPONENTS, GOAL, NOVELTY } from "./algorithms.js";
+import { InputError } from "./checks.js";
+import { Archive, Occupancy, neighboursOf, rowOf, rowsOf, scoreCells, scorePoints } from "./novelty.js";
+import { breed, drawGenomes } from "./operators.js";
+import { Sfc64 } from "./random.js";
+import { Walker, WEIGHTS } from "./robot.js";
+
+/** A run, to be advanced generation by generation. Matrices are Float64Arrays, row after row. */
+export class Evolution {
+  constructor(maze, algorithm, seed, parameters = {}) {
+    this.maze = maze;
+    this.parameters = checkedParameters(parameters);
+    const { objectives, rating } = checkedAlgorithm(algorithm);
+    const { population, archive, steps, tournament, elites, crossover, mutation } = this.parameters;
+    this.rng = new Sfc64(seed);
+
+    this.genomes = new Float64Array(population * WEIGHTS);
+    drawGenomes(this.rng, -1, 1, this.genomes);
+    if (objectives === null) {
+      this.objectives = new Float64Array(this.parameters.objectives * COMPONENTS.length);
+      drawGenomes(this.rng, 0, 1, this.objectives);
+    } else this.objectives = Float64Array.from(objectives.flat());
+    const judges = this.objectives.length / COMPONENTS.length;
+    this.isRandomSearch = judges === 0;
+    this.evolving = rating === "genotypic novelty";
+    if (this.evolving && elites >= judges) {
+      throw new InputError(`elites must be fewer than the ${judges} objective functions; got ${elites}`);
+    }
+    this.weighNovelty = this.evolving || this.objectives.some((weight, i) => i % COMPONENTS.length === NOVELTY && weight);
+    const rates = { tournament, elites, crossover, mutation };
+    this.breeding = { ...rates, low: -1, high: 1 };
+    this.objectiveBreeding = { ...rates, low: 0, high: 1 };
+
+    this.endpoints = new Float64Array(population * 2); // row and column
+    this.distances = new Float64Array(population); // to the goal, taxicab
+    this.components = COMPONENTS.map(() => new Float64Array(population)); // what objective functions weigh
+    this.fitness = new Float64Array(population);
+    this.winners = new Int32Array(population); // which objective function gave a solution its fitness
+    this.archive = new Archive(archive, 2);
+    this.archiveBefore = new Archive(archive, 2); // as it was before this generation was scored
+    this.occupancy = new Occupancy(maze.height, maze.width); // of the archive's points
+    this.objectiveFitness = new Float64Array(judges);
+    this.objectiveArchive = new Archive(archive, COMPONENTS.length);
+    this.number = -1; // of the generation
+    this.best = { distance: Infinity, controller: null, coefficients: [], endpoint: null };
+    this.isOver = false;
+    this.offspring = new Float64Array(this.genomes.length);
+    this.objectiveOffspring = new Float64Array(this.objectives.length);
+    this.walker = new Walker(maze, steps);
+  }
+
+  /** Breed the next generation and evaluate it (the first is only evaluated). Is there another after it? */
+  advance() {
+    if (this.number >= 0) this.#breedBoth();
+    this.number++;
+    this.#evaluate();
+    this.#keepBest();
+    if (this.evolving) {
+      // Algorithm 2: the fitness of an objective function is the novelty of its genome
+      scorePoints(this.objectives, this.objectiveArchive, this.parameters.k, false, this.objectiveFitness);
+    }
+    const isLast = this.number + 1 >= this.parameters.generations;
+    // random search has no first success to stop at: it looks for the best of all that it may draw
+    this.isOver = isLast || (this.hasSucceeded && !this.isRandomSearch);
+    return !this.isOver;
+  }
+
+  get hasSucceeded() {
+    return this.best.distance <= this.parameters.success_distance;
+  }
+
+  /** What came of the run so far; as safe.Run. */
+  result() {
+    return {
+      success: this.hasSucceeded,
+      generation: this.number,
+      distance: this.best.distance,
+      controller: this.best.controller,
+      coefficients: this.best.coefficients,
+      evaluations: (this.number + 1) * this.parameters.population,
+    };
+  }
+
+  /** The generation, as plain arrays; as safe.Generation. */
+  generation() {
+    const unless = (absent, values) => (absent ? null : Array.from(values));
+    return {
+      ...this.result(),
+      genomes: rowsOf(this.genomes, WEIGHTS),
+      endpoints: rowsOf(this.endpoints, 2),
+      distances: Array.from(this.distances),
+      components: this.components.map((values) => Array.from(values)),
+      novelty: unless(!this.weighNovelty, this.components[NOVELTY]),
+      fitness: unless(this.isRandomSearch, this.fitness),
+      objectives: rowsOf(this.objectives, COMPONENTS.length),
+      objectiveFitness: unless(!this.evolving, this.objectiveFitness),
+      winners: unless(this.isRandomSearch, this.winners),
+      archive: this.archive.listed(),
+      objectiveArchive: this.objectiveArchive.listed(),
+    };
+  }
+
+  /** The cells that a robot stands on, the start first, until its path comes back to one. */
+  route(controller) {
+    this.walker.walk(controller, 0);
+    return this.walker.route;
+  }
+
+  /** The k nearest neighbours by which the i-th solution of this generation was scored: see `neighboursOf`. */
+  neighbours(i) {
+    return neighboursOf(this.endpoints, this.distances.length, i, this.archiveBefore, this.parameters.k, true);
+  }
+
+  /** End points, components, fitness. */
+  #evaluate() {
+    const { genomes, endpoints, distances, walker, parameters } = this;
+    const [goalRow, goalColumn] = this.maze.goal;
+    for (let i = 0; i < distances.length; i++) {
+      walker.walk(genomes, i * WEIGHTS);
+      const end = walker.cellAt(parameters.steps);
+      const row = Math.floor(end / this.maze.width), column = end % this.maze.width;
+      endpoints[2 * i] = row;
+      endpoints[2 * i + 1] = column;
+      const distance = Math.abs(row - goalRow) + Math.abs(column - goalColumn);
+      distances[i] = distance;
+      // at the goal itself 1 / distance has no value: it counts as at distance 1/2
+      this.components[GOAL][i] = distance > 0 ? 1 / distance : 2;
+    }
+    if (this.weighNovelty) {
+      this.archiveBefore.copyFrom(this.archive);
+      scoreCells(endpoints, this.archive, this.occupancy, parameters.k, this.components[NOVELTY]);
+    }
+    if (!this.isRandomSearch) this.#judge();
+  }
+
+  /** Algorithm 1: the fitness of S_i is max_j O_j(S_i), and the first such O_j is its winner. */
+  #judge() {
+    const { components, objectives, fitness, winners } = this;
+    const width = components.length, judges = objectives.length / width;
+    for (let i = 0; i < fitness.length; i++) {
+      fitness[i] = -Infinity;
+      for (let j = 0; j < judges; j++) {
+        let score = 0;
+        for (let c = 0; c < width; c++) score += objectives[j * width + c] * components[c][i]; // Equation 1
+        if (score > fitness[i]) {
+          fitness[i] = score;
+          winners[i] = j;
+        }
+      }
+    }
+  }
+
+  /** Keep the first solution that is nearer to the goal than all before it. */
+  #keepBest() {
+    for (let i = 0; i < this.distances.length; i++) {
+      if (this.distances[i] < this.best.distance) {
+        this.best = {
+          distance: this.distances[i],
+          controller: rowOf(this.genomes, i, WEIGHTS),
+          coefficients: this.isRandomSearch ? [] : rowOf(this.objectives, this.winners[i], COMPONENTS.length),
+          endpoint: rowOf(this.endpoints, i, 2),
+        };
+      }
+    }
+  }
+
+  /** The next generation of solutions and, where they evolve, of objective functions. */
+  #breedBoth() {
+    if (this.isRandomSearch) return drawGenomes(this.rng, -1, 1, this.genomes);
+    breed(this.genomes, this.fitness, this.breeding, this.rng, this.offspring);
+    [this.genomes, this.offspring] = [this.offspring, this.genomes];
+    if (this.evolving) {
+      breed(this.objectives, this.objectiveFitness, this.objectiveBreeding, this.rng, this.objectiveOffspring);
+      [this.objectives, this.objectiveOffspring] = [this.objectiveOffspring, this.objectives];
+    }
+  }
+}
+
+/** One run, from its first generation to its end; the same as safe.evolve gives, bit for bit. */
+export function evolve(maze, algorithm, seed, parameters = {}) {
+  const evolution = new Evolution(maze, algorithm, seed, parameters);
+  while (evolution.advance());
+  return evolution.result();
+}
+
+/** The same run, one generation at a time; arguments are checked now, not at the first step. */
+export function generations(maze, algorithm, seed, parameters = {}) {
+  return eachGeneration(new Evolution(maze, algorithm, seed, parameters));
+}
+
+function* eachGeneration(evolution) {
+  while (!evolution.isOver) {
+    evolution.advance();
+    yield evolution.generation();
+  }
+}

@@ -1,0 +1,273 @@
+// Novelty: how far a point lies from the points seen so far, its nearest neighbours first (see safe/novelty.py).
+//
+// The novelty of a point is the sum of its distances to its k nearest neighbours, divided by k. The neighbours are all
+// other points of the population, and all points of an archive. The points of a generation are scored in order, and
+// each is offered to the archive right after its score is known.
+
+import { checkedChoice, checkedInteger, checkedRows, MOST } from "./checks.js";
+
+export const K = 15;
+export const ARCHIVE_CAPACITY = 1000;
+
+/** An archive of points, and the novelty of new ones: as safe.NoveltyArchive. */
+export class NoveltyArchive {
+  constructor(capacity = ARCHIVE_CAPACITY, k = K, metric = "taxicab") {
+    this.capacity = checkedInteger("capacity", capacity, 0, MOST);
+    this.k = checkedInteger("k", k, 1, MOST);
+    this.metric = checkedChoice("metric", metric, ["taxicab", "euclidean"]);
+    this.archive = null; // made with the first points, which tell the dimensions
+  }
+
+  /** The novelty of one generation of points, in order; what the archive admits of it stays there. */
+  score(points) {
+    const dimensions = this.archive?.dimensions ?? points?.[0]?.length ?? 0;
+    const flat = checkedRows("points", points, dimensions);
+    checkedInteger("the columns of points", dimensions, 1, 1000);
+    this.archive ??= new Archive(this.capacity, dimensions);
+    const scores = new Float64Array(points.length);
+    scorePoints(flat, this.archive, this.k, this.metric === "taxicab", scores);
+    return [...scores];
+  }
+
+  get length() {
+    return this.archive?.size ?? 0;
+  }
+
+  /** The points in the archive, the oldest first. */
+  get points() {
+    return this.archive?.listed().points ?? [];
+  }
+
+  /** The scores that they entered with. */
+  get scores() {
+    return this.archive?.listed().scores ?? [];
+  }
+}
+
+/** A fixed number of places for points with their scores. */
+export class Archive {
+  constructor(capacity, dimensions) {
+    this.dimensions = dimensions;
+    this.capacity = capacity;
+    this.points = new Float64Array(capacity * dimensions); // one point after the other
+    this.scores = new Float64Array(capacity); // as they were on entry
+    this.entry = new Float64Array(capacity); // 0 for the first point that ever entered
+    this.size = 0;
+    this.entered = 0; // points that ever entered
+    this.lowest = -1; // the place of the lowest score, the oldest of equals, once all places are taken
+  }
+
+  /** A point enters if it scores above this: anything while there is room, then the lowest score. */
+  get threshold() {
+    if (this.size < this.capacity) return -1;
+    return this.capacity > 0 ? this.scores[this.lowest] : Infinity;
+  }
+
+  /** The place for the next point that enters: a free one, or that of the lowest score. */
+  get nextPlace() {
+    return this.size < this.capacity ? this.size : this.lowest;
+  }
+
+  /** Let the i-th of some points in, at the next place. */
+  enter(points, i, score) {
+    const { dimensions, scores, entry } = this;
+    const place = this.nextPlace;
+    for (let axis = 0; axis < dimensions; axis++) {
+      this.points[place * dimensions + axis] = points[i * dimensions + axis];
+    }
+    scores[place] = score;
+    entry[place] = this.entered++;
+    if (this.size < this.capacity) this.size++;
+    if (this.size < this.capacity) return;
+    let lowest = 0;
+    for (let j = 1; j < this.size; j++) {
+      if (scores[j] < scores[lowest] || (scores[j] === scores[lowest] && entry[j] < entry[lowest])) lowest = j;
+    }
+    this.lowest = lowest;
+  }
+
+  /** Become equal to another archive of the same capacity and dimensions. */
+  copyFrom(other) {
+    this.points.set(other.points.subarray(0, other.size * other.dimensions));
+    this.scores.set(other.scores.subarray(0, other.size));
+    this.entry.set(other.entry.subarray(0, other.size));
+    this.size = other.size;
+    this.entered = other.entered;
+    this.lowest = other.lowest;
+  }
+
+  /** Points and scores, the oldest first, as plain arrays. */
+  listed() {
+    const places = Array.from({ length: this.size }, (_, place) => place).sort((a, b) => this.entry[a] - this.entry[b]);
+    return {
+      points: places.map((place) => rowOf(this.points, place, this.dimensions)),
+      scores: places.map((place) => this.scores[place]),
+    };
+  }
+}
+
+// There are two ways to find the nearest neighbours, and both are exact.
+//
+// End points are cells of a maze, so taxicab distances are whole numbers and many points share a cell. `scoreCells` keeps
+// count of the points in every cell, and adds the counts up ring by ring around a point until it has k neighbours. Where
+// they are farther than some rings, in a large and empty maze, it measures the distance to every point.
+//
+// `scorePoints` serves any points, and measures all distances.
+
+const RINGS = 24; // of cells around a point that are searched
+
+/** How many points are in each cell of a maze (none), with a margin of RINGS around it that never holds any. */
+export class Occupancy {
+  constructor(height, width) {
+    this.width = width + 2 * RINGS;
+    this.counts = new Int32Array((height + 2 * RINGS) * this.width);
+  }
+
+  /** The place in `counts` of the i-th of some cells. */
+  place(cells, i) {
+    return (RINGS + cells[2 * i]) * this.width + RINGS + cells[2 * i + 1];
+  }
+
+  /** The summed distances from a place to the `wanted` nearest other points; -1 if they are not all within the rings. */
+  sumOverRings(place, wanted) {
+    const { counts, width } = this;
+    let found = counts[place] - 1; // without the point itself
+    let total = 0;
+    for (let radius = 1; radius <= RINGS && found < wanted; radius++) {
+      let top = place - radius * width, right = place + radius, bottom = place + radius * width, left = place - radius;
+      let onRing = 0;
+      for (let step = 0; step < radius; step++) { // along the four sides of the ring at once
+        onRing += counts[top] + counts[right] + counts[bottom] + counts[left];
+        top += width + 1;
+        right += width - 1;
+        bottom -= width + 1;
+        left -= width - 1;
+      }
+      total += radius * Math.min(onRing, wanted - found);
+      found += onRing;
+    }
+    return found >= wanted ? total : -1;
+  }
+}
+
+/** Score cells by taxicab distance, in order, offering each to the archive. `occupancy` counts the archive's points. */
+export function scoreCells(cells, archive, occupancy, k, scores) {
+  const n = scores.length, { counts } = occupancy;
+  for (let i = 0; i < n; i++) counts[occupancy.place(cells, i)]++;
+  for (let i = 0; i < n; i++) {
+    const place = occupancy.place(cells, i), wanted = Math.min(k, n - 1 + archive.size);
+    const total = occupancy.sumOverRings(place, wanted);
+    scores[i] = (total >= 0 ? total : sumOverAll(cells, n, i, archive, wanted)) / k;
+    if (scores[i] > archive.threshold) {
+      if (archive.nextPlace < archive.size) counts[occupancy.place(archive.points, archive.nextPlace)]--;
+      counts[place]++;
+      archive.enter(cells, i, scores[i]);
+    }
+  }
+  for (let i = 0; i < n; i++) counts[occupancy.place(cells, i)]--;
+}
+
+/** The same sum as of `sumOverRings`, by the distances of all cells and of the archive: how many are at each? */
+function sumOverAll(cells, n, i, archive, wanted) {
+  const atDistance = [-1]; // without the point itself
+  const count = (others, size) => {
+    for (let j = 0; j < size; j++) {
+      const distance = Math.abs(others[2 * j] - cells[2 * i]) + Math.abs(others[2 * j + 1] - cells[2 * i + 1]);
+      atDistance[distance] = (atDistance[distance] ?? 0) + 1;
+    }
+  };
+  count(cells, n);
+  count(archive.points, archive.size);
+  let found = 0, total = 0;
+  for (let distance = 0; found < wanted; distance++) {
+    const taken = Math.min(atDistance[distance] ?? 0, wanted - found);
+    total += distance * taken;
+    found += taken;
+  }
+  return total;
+}
+
+/** Score the first points of a generation (all, unless told how many) in order, offering each to the archive. */
+export function scorePoints(points, archive, k, taxicab, scores, first = scores.length) {
+  const n = scores.length, { dimensions } = archive;
+  // population and archive, axis by axis; points on a line get a second coordinate
+  const most = n + Math.min(archive.capacity, archive.size + n);
+  const axes = Array.from({ length: Math.max(dimensions, 2) }, () => new Float64Array(most));
+  for (let axis = 0; axis < dimensions; axis++) {
+    for (let j = 0; j < n; j++) axes[axis][j] = points[j * dimensions + axis];
+    for (let j = 0; j < archive.size; j++) axes[axis][n + j] = archive.points[j * dimensions + axis];
+  }
+  const nearest = new Float64Array(Math.min(k + 1, most));
+  for (let i = 0; i < first; i++) {
+    // the point finds itself, too, at a distance of 0, which adds nothing to the sum
+    const wanted = Math.min(k, n - 1 + archive.size) + 1;
+    nearestDistances(axes, i, n + archive.size, wanted, taxicab, nearest);
+    let total = 0;
+    for (let j = 0; j < wanted; j++) total += taxicab ? nearest[j] : Math.sqrt(nearest[j]);
+    scores[i] = total / k;
+    if (scores[i] > archive.threshold) {
+      const place = n + archive.nextPlace;
+      for (let axis = 0; axis < dimensions; axis++) axes[axis][place] = points[i * dimensions + axis];
+      archive.enter(points, i, scores[i]);
+    }
+  }
+}
+
+/** Put the `wanted` smallest distances between the i-th and all of the first `size` members, in order, into `nearest`.
+ *
+ * Euclidean distances stay squared: the order is the same. */
+function nearestDistances(axes, i, size, wanted, taxicab, nearest) {
+  const [xs, ys, ...others] = axes, x = xs[i], y = ys[i];
+  const last = wanted - 1;
+  let farthest = Infinity; // of those in `nearest`
+  nearest.fill(Infinity);
+  for (let j = 0; j < size; j++) {
+    const dx = xs[j] - x, dy = ys[j] - y;
+    let distance = taxicab ? Math.abs(dx) + Math.abs(dy) : dx * dx + dy * dy;
+    if (others.length > 0) {
+      for (const axis of others) {
+        const difference = axis[j] - axis[i];
+        distance += taxicab ? Math.abs(difference) : difference * difference;
+      }
+    }
+    if (distance < farthest) {
+      let place = last;
+      for (; place > 0 && nearest[place - 1] > distance; place--) nearest[place] = nearest[place - 1];
+      nearest[place] = distance;
+      farthest = nearest[last];
+    }
+  }
+}
+
+/** The k nearest neighbours that the i-th of n points had when it was scored, the nearest first.
+ *
+ * archive: as it was before the generation. Gives { point, distance, from }; `from` is "population" or "archive". */
+export function neighboursOf(points, n, i, archive, k, taxicab) {
+  const met = new Archive(archive.capacity, archive.dimensions);
+  met.copyFrom(archive);
+  scorePoints(points, met, k, taxicab, new Float64Array(n), i);
+  const point = rowOf(points, i, archive.dimensions);
+  const neighbours = [];
+  const measure = (others, size, from, isItself) => {
+    for (let j = 0; j < size; j++) {
+      if (isItself(j)) continue;
+      const other = rowOf(others, j, archive.dimensions);
+      const differences = other.map((value, axis) => Math.abs(value - point[axis]));
+      const distance = taxicab ? differences.reduce((a, b) => a + b) : Math.hypot(...differences);
+      neighbours.push({ point: other, distance, from });
+    }
+  };
+  measure(points, n, "population", (j) => j === i);
+  measure(met.points, met.size, "archive", () => false);
+  return neighbours.sort((a, b) => a.distance - b.distance).slice(0, k);
+}
+
+/** The i-th row of a matrix that is kept row after row. */
+export function rowOf(matrix, i, columns) {
+  return Array.from(matrix.subarray(i * columns, (i + 1) * columns));
+}
+
+/** All rows of such a matrix. */
+export function rowsOf(matrix, columns) {
+  return Array.from({ length: matrix.length / columns }, (_, i) => rowOf(matrix, i, columns));
+}

@@ -1,0 +1,1 @@
+"""What runs say: samples compared, tables, figures. Nothing here runs an experiment."""

@@ -1,0 +1,188 @@
+import numpy as np
+import pandas as pd
+import pytest
+
+import safe
+from safe.companion import ledger
+from safe.experiments.experiment import COEFFICIENTS, WEIGHT_COLUMNS
+from safe.results import tables
+from tests.helpers import record
+
+
+@pytest.fixture(scope="module")
+def recorded_runs():
+    return record.recorded_runs()
+
+
+@pytest.fixture
+def results(recorded_runs):
+    return {experiment: recorded_runs[record.key(experiment)].copy() for experiment in record.experiments()}
+
+
+@pytest.fixture
+def repeats(recorded_runs, results):
+    return {
+        repetition: recorded_runs[record.key(repetition)]
+        for experiment in ledger.deviating_experiments(results)
+        for repetition in record.repetitions(experiment)
+    }
+
+
+@pytest.mark.parametrize("experiment", record.experiments(), ids=record.key)
+def test_the_recorded_runs_are_those_that_the_package_makes(recorded_runs, experiment):
+    recorded = recorded_runs[record.key(experiment)]
+    assert len(recorded) == 500
+    solved = np.flatnonzero(recorded.success)[:2]
+    for number in {0, *solved.tolist()}:
+        made = safe.evolve(experiment.maze, experiment.algorithm, experiment.seed_sequence(number))
+        row = recorded.loc[number]
+        assert (made.success, made.generation, made.distance) == (row.success, row.generation, row.distance)
+        if row[WEIGHT_COLUMNS].notna().all():
+            assert made.controller == tuple(row[WEIGHT_COLUMNS])
+            assert made.coefficients == tuple(row[[*COEFFICIENTS]])
+
+
+def test_no_verdict_has_changed(results, repeats):
+    table = ledger.ledger(results, repeats)
+    assert ledger.changed(table) == []
+    record = ledger.recorded()
+    assert table.index.tolist() == record.index.tolist()
+    assert table.evidence.tolist() == record.evidence.tolist()
+    assert set(table.verdict) <= set(ledger.VERDICTS)
+    for column in ("difference", "low", "high", "p_value", "p_adjusted", "effect", "p_equivalence"):
+        assert table[column].to_numpy(float) == pytest.approx(record[column].to_numpy(float), rel=1e-3, nan_ok=True)
+
+
+@pytest.mark.parametrize(
+    ("maze", "algorithm", "claim", "verdict"),
+    [
+        ("maze1", "novelty", "maze1 novelty successes", "not reproduced"),
+        ("maze1", "safe", "maze1 safe > maze1 standard", "not reproduced"),
+        ("maze1", "safe", "maze1 safe generations", "no difference detectable at this size"),
+    ],
+)
+def test_a_verdict_that_changes_is_noticed(results, maze, algorithm, claim, verdict):
+    (experiment,) = [e for e in results if (e.maze.name, e.algorithm.name) == (maze, algorithm)]
+    results[experiment]["success"] = False
+    lines = ledger.changed(ledger.ledger(results))
+    assert f"{claim}: was 'reproduced', is '{verdict}'" in lines
+
+
+def test_other_evidence_may_lead_to_another_verdict(results):
+    few = {experiment: runs.head(20) for experiment, runs in results.items()}
+    table = ledger.ledger(few)
+    assert table.loc["maze1 novelty successes", "verdict"] == ledger.UNDECIDED
+    assert ledger.changed(table) == []
+
+
+def test_the_papers_every_number_is_a_claim(results):
+    table = ledger.ledger(results)
+    numbers = tables.published().query("table != '1'")
+    assert len(table[table.family.isin([ledger.SUCCESSES, ledger.GENERATIONS, ledger.EVOLVED])]) == len(numbers)
+
+
+def row(**values):
+    values = {
+        "family": "successes",
+        "direction": 0,
+        "difference": 0.1,
+        "p_adjusted": 0.5,
+        "p_equivalence": 0.5,
+    } | values
+    return pd.Series(values)
+
+
+@pytest.mark.parametrize(
+    ("values", "verdict"),
+    [
+        ({"p_adjusted": 0.04, "p_equivalence": 0.01}, ledger.NOT_REPRODUCED),
+        ({"p_equivalence": 0.01}, ledger.REPRODUCED),
+        ({}, ledger.UNDECIDED),
+        ({"p_adjusted": np.nan, "p_equivalence": np.nan}, ledger.UNDECIDED),
+        ({"direction": 1, "p_adjusted": 0.01}, ledger.REPRODUCED),
+        ({"direction": 1, "p_adjusted": 0.01, "difference": -0.1}, ledger.NOT_REPRODUCED),
+        ({"direction": 1, "p_equivalence": 0.01}, ledger.NOT_REPRODUCED),
+        ({"direction": 1, "p_adjusted": 0.01, "p_equivalence": 0.01}, ledger.REPRODUCED),
+        ({"direction": 1}, ledger.UNDECIDED),
+        ({"family": ledger.UNTESTABLE}, ledger.UNTESTABLE),
+    ],
+)
+def test_the_rules_that_lead_to_a_verdict(values, verdict):
+    assert ledger._verdict(row(**values)) == verdict
+
+
+def test_what_stands_out_is_looked_at_again(results, repeats):
+    assert [record.key(experiment) for experiment in ledger.deviating_experiments(results)] == [
+        "maze1 fixed 0",
+        "maze2 novelty 0",
+    ]
+    table = ledger.ledger(results, repeats)
+    second = table[table.family == ledger.SECOND_LOOK]
+    assert second.index.tolist() == ["maze1 fixed successes, second look", "maze2 novelty generations, second look"]
+    successes, generations = (row for _, row in second.iterrows())
+    assert successes.here.endswith(" of 2000")
+    assert successes.evidence == "fixed on maze1: 2000 runs, seed 1, 2, 3, 4"
+    assert successes.p_adjusted == pytest.approx(10 * successes.p_value)
+    assert generations.p_adjusted == pytest.approx(min(1, 4 * generations.p_value))
+    assert ledger.summary(table).loc["all"].sum() == len(table) - 2
+
+
+def test_a_few_runs_of_one_maze_are_a_ledger_too():
+    few = {
+        safe.Experiment(algorithm, "maze2", 2): pd.DataFrame(
+            {
+                "success": False,
+                "generation": 499,
+                "distance": 9,
+                **dict.fromkeys([*COEFFICIENTS, *WEIGHT_COLUMNS], 0.0),
+            },
+            index=range(2),
+        )
+        for algorithm in ("standard", "novelty", "safe", "random")
+    }
+    table = ledger.ledger(few)
+    assert not table.index.str.contains("maze1|fixed").any()
+    words = ledger.readable_ledger(table)
+    assert words[table.index == "maze2 safe generations"].here.item() == "no success"
+    assert (
+        words.loc[
+            "p1 on maze2, the weight of dist_right in h", ["difference (95 % interval)", "p (Holm)", "p (equivalence)"]
+        ].tolist()
+        == ["–"] * 3
+    )
+    assert ledger.summary(table).loc["all"].sum() == len(table)
+
+
+def test_other_mazes_and_parameters_bear_on_no_claim():
+    mine = safe.Maze.from_drawing("S.G", name="maze1")
+    ended = pd.DataFrame({"success": [True], "generation": [0], "distance": [0]})
+    others = {
+        safe.Experiment("safe", mine): ended,
+        safe.Experiment("safe", "maze2", parameters=safe.Parameters(k=3)): ended,
+    }
+    assert set(ledger.ledger(others).verdict) == {ledger.UNTESTABLE}
+
+
+def test_behind_a_claim_are_the_experiments_that_its_evidence_names(results, repeats):
+    table = ledger.ledger(results, repeats)
+    behind = dict(zip(table.index, ledger.experiments_behind(table, results, repeats), strict=True))
+
+    def names(claim):
+        assert all(runs is (results | repeats)[experiment] for experiment, runs in behind[claim].items())
+        return [(e.maze.name, e.algorithm.name, e.seed) for e in behind[claim]]
+
+    assert names("maze1 safe successes") == names("maze1 p3") == [("maze1", "safe", 0)]
+    assert names("maze1 novelty > maze1 random") == [("maze1", "novelty", 0), ("maze1", "random", 0)]
+    assert names("maze2 deceived") == [("maze2", "standard", 0)]
+    second = names("maze1 fixed successes, second look")
+    assert second == [("maze1", "fixed", seed) for seed in (1, 2, 3, 4)]
+    untestable = table.family == ledger.UNTESTABLE
+    assert all(bool(behind[claim]) != untestable[claim] for claim in table.index)
+
+
+def test_behind_no_claim_is_an_experiment_that_only_bears_the_name_of_one_of_the_papers(results):
+    own = safe.Experiment("safe", safe.Maze.from_drawing("S.G", "maze1"))
+    of_paper = next(e for e in results if (e.maze.name, e.algorithm.name) == ("maze1", "safe"))
+    table = ledger.ledger(results)
+    behind = ledger.experiments_behind(table, results | {own: results[of_paper]})
+    assert all(own not in experiments for experiments in behind)

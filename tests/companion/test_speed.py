@@ -1,0 +1,93 @@
+import json
+from pathlib import Path
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import pytest
+
+from safe.companion import speed
+from safe.results import figures
+
+mpl.use("agg")
+RECORD = Path(__file__).parents[2] / "benchmarks" / "results.json"
+
+
+@pytest.fixture(scope="module")
+def measured():
+    return speed.read_measured(RECORD)[0]
+
+
+def test_the_machine_is_told_and_nobody_on_it():
+    machine = speed.read_measured(RECORD)[1]
+    assert list(machine) == ["processor", "system", "packages", "measured"]
+    assert all(machine.values())
+    assert not {"node", "user", "commit_info"} & json.loads(RECORD.read_text()).keys()
+    assert "/" not in "".join(machine.values())
+
+
+def test_parts_add_up_to_a_generation(measured):
+    """As well as they can on a machine that does other things, too: a part left out or counted twice is noticed."""
+    table = speed.parts_table(measured)
+    together = table.drop(columns="all").sum(axis=1)
+    assert len(table) == 6
+    assert (abs(together / table["all"] - 1) < 0.2).all()
+    assert table.loc["maze1", "standard"].isna().sum() == 3
+
+
+def test_peers_are_compared_with_what_is_here(measured):
+    table = speed.peers_table(measured)
+    assert (table.xs("safe", level="method").times_as_long == 1).all()
+    assert len(table.xs("safe", level="method")) == 8
+    row = table.loc["novelty, end point", "scipy cKDTree"]
+    ours = table.loc["novelty, end point", "safe"]
+    assert row.times_as_long == pytest.approx(row.microseconds / ours.microseconds)
+
+
+def test_every_experiment_of_the_paper_has_its_price(measured):
+    table = speed.paper_table(measured)
+    assert len(table) == 10
+    assert table.notna().all().all()
+    assert (table.runs == 500).all()
+
+
+def test_what_grows(measured):
+    table = speed.growth_table(measured)
+    assert set(table.what) == set(figures.VARIED)
+    assert table.notna().all().all()
+    assert not table.duplicated(["what", "of", "size"]).any()
+
+
+def test_key_figures(measured):
+    numbers = speed.key_figures(measured).speed
+    assert numbers.core_seconds == pytest.approx(speed.paper_table(measured).core_seconds.sum(), rel=0.05)
+    assert numbers.runs == 5000
+    assert numbers.days_of_ten_million_runs == pytest.approx(numbers.core_seconds / 5000 * 1e7 / 86400, rel=0.1)
+
+
+def test_key_figures_need_a_browser(measured):
+    for group in (
+        measured.group != "twin",
+        measured.method.isna() | ~measured.method.astype(str).str.contains("Chrom"),
+    ):
+        with pytest.raises(ValueError, match="playground in Chromium"):
+            speed.key_figures(measured[group])
+
+
+def test_figures(measured):
+    _, panels = figures.plot_parts(speed.parts_table(measured))
+    assert [axes.get_title() for axes in panels] == ["maze1", "maze2"]
+    parts = speed.parts_table(measured)
+    widths = sum(bar.get_width() for bar in panels[0].patches)
+    assert widths == pytest.approx(parts.loc["maze1"].drop(columns="all").sum().sum())
+    _, panels = figures.plot_growth(speed.growth_table(measured))
+    assert sorted(axes.get_xlabel() for axes in panels.flat) == sorted(figures.VARIED.values())
+    plt.close("all")
+
+
+@pytest.mark.parametrize("content", [None, "", "[]", "{}", '{"benchmarks": [{}]}'])
+def test_files_without_measurements(tmp_path, content):
+    path = tmp_path / "results.json"
+    if content is not None:
+        path.write_text(content)
+    with pytest.raises(ValueError, match="measured must be the path of measurements; got"):
+        speed.read_measured(path)

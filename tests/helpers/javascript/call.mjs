@@ -1,0 +1,65 @@
+// Calls of the engine in JSON, answered in JSON: the same in Node, in a page and in a worker of it.
+// A double comes back as it was, since both sides write the shortest digits that tell it from all others.
+
+import { shown } from "../../../safe/playground/javascript/checks.js";
+import {
+  NoveltyArchive, endpoints, evolve, generations, parseMaze, path,
+} from "../../../safe/playground/javascript/engine.js";
+import { Evolution } from "../../../safe/playground/javascript/evolution.js";
+import { drawingOf, listOf, waysToGoal } from "../../../safe/playground/javascript/maze.js";
+
+const FUNCTIONS = {
+  host: () => (globalThis.process ? `Node ${process.versions.node}` : `Chromium ${navigator.userAgent.match(/Chrom\w*\/(\d+)/)[1]}`),
+  shown: ({ value }) => shown(value),
+  parseMaze: ({ maze, name }) => parseMaze(maze, name),
+  writtenMaze: ({ maze }) => {
+    const parsed = parseMaze(maze);
+    return { drawing: drawingOf(parsed), list: listOf(parsed), ways: waysToGoal(parsed) };
+  },
+  path: ({ maze, controller, steps }) => path(parseMaze(maze), controller, steps),
+  endpoints: ({ maze, controllers, steps }) => endpoints(parseMaze(maze), controllers, steps),
+  NoveltyArchive: ({ capacity, k, metric, generations }) => {
+    const archive = new NoveltyArchive(capacity, k, metric);
+    return generations.map((points) => ({
+      novelty: archive.score(points),
+      points: archive.points,
+      scores: archive.scores,
+      length: archive.length,
+    }));
+  },
+  evolve: ({ maze, algorithm, seed, parameters }) => evolve(parseMaze(maze), algorithm, seedOf(seed), parameters),
+  generations: ({ maze, algorithm, seed, parameters }) => [
+    ...generations(parseMaze(maze), algorithm, seedOf(seed), parameters),
+  ],
+  neighbours: ({ maze, algorithm, seed, parameters }) => {
+    const evolution = new Evolution(parseMaze(maze), algorithm, seedOf(seed), parameters);
+    while (evolution.advance());
+    return Array.from(evolution.distances, (_, i) => evolution.neighbours(i));
+  },
+};
+
+export function answer(text) {
+  return JSON.stringify(JSON.parse(text).map(answerOne), plain);
+}
+
+function answerOne(call) {
+  try {
+    return { result: FUNCTIONS[call.function](call) };
+  } catch (error) {
+    return { error: error.message, stack: error.stack };
+  }
+}
+
+// Integers that a double may not hold are hexadecimal texts in JSON.
+function seedOf(seed) {
+  if (typeof seed === "string") return BigInt(seed);
+  if (Array.isArray(seed)) return seed.map(seedOf);
+  if (Object(seed) === seed) return { entropy: seedOf(seed.entropy), spawnKey: seed.spawnKey.map(seedOf) };
+  return seed;
+}
+
+// JSON would make null of what it cannot write.
+function plain(key, value) {
+  if (typeof value === "number" && !Number.isFinite(value)) throw new Error(`${key} is ${value}`);
+  return ArrayBuffer.isView(value) ? Array.from(value) : value;
+}

@@ -1,0 +1,70 @@
+"""The runs behind the recorded ledger, kept so that a verdict that changes is noticed without making all of them again.
+
+    python -m tests.helpers.record    makes tests/data/runs.npz and safe/companion/ledger.csv from results.sqlite
+
+Of each run it is kept how it ended, and its evolved values where the ledger looks at them. Look at what has changed in
+the ledger before you commit it: a verdict that changes is news.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+import safe
+from safe.companion import ledger
+from safe.experiments.experiment import COEFFICIENTS, WEIGHT_COLUMNS
+
+FILE = Path(__file__).parents[1] / "data" / "runs.npz"
+COLUMNS = ["generation", "distance", *COEFFICIENTS, *WEIGHT_COLUMNS]
+SEEDS_OF_SECOND_LOOK = range(1, 5)
+
+
+def experiments():
+    """Every experiment of the ledger's first look."""
+    return [safe.Experiment(algorithm, maze) for maze in ("maze1", "maze2") for algorithm in safe.ALGORITHMS]
+
+
+def repetitions(experiment):
+    """Those of its second look at one of them."""
+    return [
+        safe.Experiment(experiment.algorithm, experiment.maze, experiment.runs, seed) for seed in SEEDS_OF_SECOND_LOOK
+    ]
+
+
+def key(experiment):
+    return f"{experiment.maze.name} {experiment.algorithm.name} {experiment.seed}"
+
+
+def stripped(experiment, runs):
+    """What is kept of an experiment's runs, as one array, a row for each run."""
+    kept = runs.reindex(columns=COLUMNS).astype(float)
+    if experiment.algorithm.name == "safe":
+        kept.loc[~runs.success, [*COEFFICIENTS, *WEIGHT_COLUMNS]] = np.nan
+    elif experiment.algorithm.name != "standard":
+        kept[[*COEFFICIENTS, *WEIGHT_COLUMNS]] = np.nan
+    return kept.to_numpy()
+
+
+def recorded_runs():
+    """The runs as `safe.run` gives them, as far as they are kept."""
+    with np.load(FILE) as arrays:
+        found = {}
+        for name, array in arrays.items():
+            runs = pd.DataFrame(array, columns=COLUMNS)
+            runs = runs.astype({"generation": int, "distance": int})
+            runs.insert(0, "success", runs.distance <= safe.Parameters().success_distance)
+            found[name] = runs
+    return found
+
+
+if __name__ == "__main__":
+    results = {experiment: safe.run(experiment, "results.sqlite") for experiment in experiments()}
+    repeats = {
+        repetition: safe.run(repetition, "results.sqlite")
+        for experiment in ledger.deviating_experiments(results)
+        for repetition in repetitions(experiment)
+    }
+    everything = results | repeats
+    np.savez_compressed(FILE, **{key(e): stripped(e, runs) for e, runs in everything.items()})
+    ledger.ledger(results, repeats).to_csv(ledger.RECORD, float_format="%.4g")

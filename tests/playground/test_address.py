@@ -1,0 +1,127 @@
+"""Addresses say what they are addresses of: read again, they give the same maze, the same algorithm, the same run."""
+
+import base64
+from urllib.parse import unquote
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+import safe
+from safe.playground.address import drive_address, run_address
+from tests.conftest import controllers, mazes
+
+FEW = safe.Parameters(population=20, objectives=10, generations=3, elites=0, mutation=0.25)
+
+
+def values_of(address):
+    """The values of an address by their keys, unescaped as a browser does."""
+    return {key: unquote(value) for key, value in (part.split("=") for part in address.split("&"))}
+
+
+def maze_of(text):
+    if "/" not in text:
+        return safe.load_maze(text)
+    size, start, goal, bits = text.split("/")
+    height, width = map(int, size.split("x"))
+    packed = np.frombuffer(base64.urlsafe_b64decode(bits + "=" * (-len(bits) % 4)), dtype=np.uint8)
+    assert len(packed) == -(-height * width // 8)
+    walls = np.unpackbits(packed, count=height * width).reshape(height, width)
+    return safe.Maze(walls, *(tuple(map(int, cell.split(","))) for cell in (start, goal)))
+
+
+def algorithm_of(text):
+    if ":" not in text:
+        return safe.ALGORITHMS[text]
+    name, rating, objectives = text.split(":")
+    numbers = [float(number) for number in objectives.split(",")] if objectives not in ("drawn", "") else []
+    pairs = None if objectives == "drawn" else list(zip(numbers[::2], numbers[1::2], strict=True))
+    return safe.Algorithm(name, pairs, {"none": "none", "genotypic": "genotypic novelty"}[rating])
+
+
+def seed_of(text):
+    entropy, run = text.split("/")
+    return np.random.SeedSequence(int(entropy, 0), spawn_key=(int(run),))
+
+
+def run_at(address):
+    """The run that an address says, made from it alone."""
+    values = values_of(address)
+    assert values.pop("view") == "watch"
+    maze, algorithm, seed = (values.pop(key) for key in ("maze", "algorithm", "seed"))
+    own = {name: (float if "." in value else int)(value) for name, value in values.items()}
+    return safe.evolve(maze_of(maze), algorithm_of(algorithm), seed_of(seed), safe.Parameters(**own))
+
+
+ALGORITHMS = [
+    *safe.ALGORITHMS.values(),
+    safe.Algorithm("fixed", [(0.25, 0.75)]),
+    safe.Algorithm("safe", [(0.1, 1e-7), (1 / 3, 2)], "genotypic novelty"),
+    safe.Algorithm("unevolved"),
+    safe.Algorithm("nobody", []),
+    safe.Algorithm("a: ½, b: 50 % & #1=/", [(1, 0)]),
+]
+
+
+@pytest.mark.parametrize("algorithm", ALGORITHMS, ids=lambda algorithm: algorithm.name)
+def test_the_run_that_an_address_says_is_that_of_the_experiment(algorithm):
+    experiment = safe.Experiment(algorithm, "maze1", runs=3, seed=5, parameters=FEW)
+    row = safe.run(experiment, progress=False).loc[2]
+    made = run_at(run_address(experiment, 2))
+    assert (made.success, made.generation, made.distance) == (row.success, row.generation, row.distance)
+    assert list(made.controller) == row[[f"p{number}" for number in range(1, 17)]].tolist()
+
+
+@pytest.mark.parametrize("algorithm", ALGORITHMS, ids=lambda algorithm: algorithm.name)
+def test_an_algorithm_is_written_by_name_where_it_is_the_one_of_this_name(algorithm):
+    text = values_of(run_address(safe.Experiment(algorithm, "maze1"), 0))["algorithm"]
+    found = algorithm_of(text)
+    assert (found.objectives, found.rating) == (algorithm.objectives, algorithm.rating)
+    assert (":" in text) == (algorithm not in safe.ALGORITHMS.values())
+    assert found.name == algorithm.name.replace(":", " ")
+
+
+def test_an_address_is_readable():
+    fixed = safe.Experiment(safe.Algorithm("fixed", [(0.25, 0.75)]), "maze2", parameters=safe.Parameters(steps=7))
+    address = f"view=watch&maze=maze2&algorithm=fixed:none:0.25,0.75&seed=0x{fixed.digest}/12&steps=7"
+    assert run_address(fixed, np.int64(12)) == address
+    nobody = safe.Experiment(safe.Algorithm("a & b", []), "maze1")
+    assert run_address(nobody, 0).startswith("view=watch&maze=maze1&algorithm=a%20%26%20b:none:&seed=0x")
+
+
+@given(maze=mazes(), controller=controllers())
+def test_a_robot_is_driven_in_the_same_maze_by_the_same_controller(maze, controller):
+    values = values_of(drive_address(maze, controller))
+    assert values["view"] == "drive"
+    assert maze_of(values["maze"]) == maze
+    assert [float(number) for number in values["controller"].split(",")] == controller.tolist()
+
+
+def test_a_maze_is_written_by_name_where_it_is_the_one_of_this_name():
+    maze1 = safe.load_maze("maze1")
+    assert drive_address(maze1) == drive_address("maze1") == "view=drive&maze=maze1"
+    for named, as_cells in ((("maze1", "mine"), True), (("maze2", "maze1"), True), (("maze2", "maze2"), False)):
+        original = safe.load_maze(named[0])
+        other = safe.Maze(original.walls, original.start, original.goal, named[1])
+        text = values_of(drive_address(other))["maze"]
+        assert ("/" in text) == as_cells
+        assert maze_of(text) == original
+
+
+@pytest.mark.parametrize("run", [-1, 1.5, "1", None])
+def test_a_run_that_is_none(run):
+    with pytest.raises(ValueError, match="run must be an integer of at least 0; got"):
+        run_address(safe.Experiment("safe", "maze1"), run)
+
+
+@pytest.mark.parametrize("controller", [[0] * 15, [2] * 16, ["a"] * 16, [float("nan")] * 16])
+def test_a_controller_that_is_none(controller):
+    with pytest.raises(ValueError, match="controller must "):
+        drive_address("maze1", controller)
+
+
+def test_a_maze_that_is_none():
+    with pytest.raises(
+        ValueError, match="maze must be one of 'maze1', 'maze2' or the path of a maze file; got 'maze3'"
+    ):
+        drive_address("maze3")

@@ -1,0 +1,206 @@
+import base64
+import io
+import json
+import re
+from xml.etree import ElementTree
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import safe
+from safe.experiments.experiment import WEIGHT_COLUMNS
+from safe.results import figures, statistics, tables
+from tests.results.test_tables import runs
+
+mpl.use("agg")
+MAZE = safe.Maze.from_drawing("S..#\n.#..\n...G", name="small")
+
+
+@pytest.fixture(autouse=True)
+def _closed():
+    yield
+    plt.close("all")
+
+
+def test_a_maze_is_drawn_with_rows_downwards():
+    _, axes = plt.subplots()
+    figures.draw_maze(axes, MAZE)
+    (image,) = axes.get_images()
+    assert (image.get_array() == MAZE.walls).all()
+    start, goal = axes.get_lines()
+    assert start.get_xydata().tolist() == [[0, 0]]
+    assert goal.get_xydata().tolist() == [[3, 2]]
+    assert axes.yaxis_inverted()
+
+
+def test_a_path_goes_from_start_to_end():
+    _, axes = plt.subplots()
+    figures.draw_path(axes, np.array([[0, 0], [1, 0], [2, 1]]))
+    path, end = axes.get_lines()
+    assert path.get_xydata().tolist() == [[0, 0], [0, 1], [1, 2]]
+    assert end.get_xydata().tolist() == [[1, 2]]
+
+
+def test_one_drawing_for_each_maze_and_path():
+    path = safe.path(MAZE, [0.0] * 16, 5)
+    figure, grid = figures.plot_paths([[(MAZE, path, "one"), (MAZE, None, "two")], [(MAZE, path, "three")]])
+    assert grid.shape == (2, 2)
+    assert [axes.get_title() for axes in grid.flat] == ["one", "two", "three", ""]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["start", "goal", "path", "end of the path"]
+    figure, grid = figures.plot_mazes([MAZE, MAZE, MAZE])
+    assert grid.shape == (1, 3)
+    assert grid[0, 2].get_title() == "small"
+
+
+def test_sensors_are_shown_with_their_readings():
+    _, axes = figures.plot_sensors(MAZE, (2, 1))
+    texts = {text.get_text() for text in axes.texts}
+    assert {"dist_right = 2\ngoal_right = 4", "dist_left = 1", "dist_down = 0", "dist_up = 1\ngoal_up = 3"} <= texts
+
+
+def story(algorithm):
+    return list(safe.Experiment(algorithm, "maze2", parameters=safe.Parameters(generations=5)).replay(0))
+
+
+@pytest.mark.parametrize(("algorithm", "panels"), [("safe", 2), ("novelty", 2), ("standard", 1), ("random", 1)])
+def test_progress(algorithm, panels):
+    told = story(algorithm)
+    _, grid = figures.plot_progress(told)
+    assert len(grid) == panels
+    of_generation, so_far = (line.get_ydata() for line in grid[0].get_lines())
+    assert so_far.tolist() == np.minimum.accumulate(of_generation).tolist()
+    assert so_far[-1] == told[-1].distance
+
+
+@pytest.mark.parametrize(("algorithm", "panels"), [("safe", 2), ("novelty", 1), ("standard", 1), ("random", 1)])
+def test_a_generation_is_shown_with_its_objective_functions(algorithm, panels):
+    *_, last = story(algorithm)
+    _, grid = figures.plot_generation(safe.load_maze("maze2"), last)
+    assert len(grid) == panels
+    lines = {line.get_label(): line.get_xydata() for axes in grid for line in axes.get_lines()}
+    assert lines["end points"].tolist() == last.endpoints[:, ::-1].tolist()
+    assert len(lines["archive"]) == len(last.archive[0])
+    if panels == 2:
+        assert len(lines["won nowhere"]) + len(lines["gave some solution its fitness"]) == 200
+        assert {tuple(point) for point in lines["gave some solution its fitness"]} == {
+            tuple(last.objectives[winner]) for winner in last.winners
+        }
+
+
+def test_an_animation_needs_nothing_from_elsewhere():
+    maze = safe.Maze.from_drawing("S#\n.G", name='<b>"mine"')
+    told = list(
+        safe.generations(maze, "random", 0, safe.Parameters(population=4, objectives=4, generations=9, steps=1))
+    )
+    page = figures.animate(maze, told, frames=4)
+    assert "://" not in page
+    assert "<b>" not in page
+    frames = json.loads(re.search(r"const frames = (\[.*?\])", page).group(1))
+    assert json.loads(re.search(r"labels = (\[.*?\])", page).group(1)) == [0, 3, 5, 8]
+    sizes = {base64.b64decode(frame)[16:24] for frame in frames}  # width and height in the header of a PNG
+    assert len(frames) == 4
+    assert len(sizes) == 1
+    assert figures.animate(maze, told[:1]).count("iVBOR") == 1
+    assert plt.get_fignums() == []
+
+
+@pytest.mark.parametrize(
+    "name", [r"a_$\frac{$", "$x$", r"\$x\$", "<script>alert(1)</script>", "--><script>", "_hidden"]
+)
+def test_names_are_not_read_as_mathematics_or_markup(name):
+    maze = safe.Maze(MAZE.walls, MAZE.start, MAZE.goal, name)
+    algorithm = safe.Algorithm(name, objectives=[(0.5, 0.5)])
+    results = {safe.Experiment(algorithm, maze): runs(1, 2, [3], a=[0.5, 0.5], b=[0.5, 0.5])}
+    evolved_weights = tables.evolved_table(results, ["a", "b"])
+    story_of_it = list(safe.generations(maze, algorithm, 0, safe.Parameters(generations=1, population=4)))
+    drawn = [
+        figures.plot_mazes([maze]),
+        figures.plot_sensors(maze, maze.start),
+        figures.plot_success(tables.success_table(results)),
+        figures.plot_arrivals({(name, name): statistics.arrivals(next(iter(results.values())))}, 9),
+        figures.plot_coefficients({name: next(iter(results.values()))}, evolved_weights),
+        figures.plot_weights(evolved_weights),
+        figures.plot_judging({name: story_of_it[0]}),
+    ]
+    for figure, _ in drawn:
+        with plt.rc_context({"svg.fonttype": "none"}), io.StringIO() as file:
+            figure.savefig(file, format="svg")
+            svg = ElementTree.fromstring(file.getvalue())
+        texts = [text.strip() for text in svg.itertext()]
+        assert any(text.startswith(name) for text in texts), texts
+        assert not any(element.tag.endswith("script") for element in svg.iter())
+    (legend,) = drawn[3][0].legends
+    assert len(legend.get_texts()) == 1
+    assert "<script>alert" not in figures.animate(maze, story_of_it)
+
+
+def test_rates_of_success_with_the_papers():
+    table = tables.success_table(
+        {safe.Experiment("safe", "maze1"): runs(3, 4), safe.Experiment("random", "maze1"): runs(0, 4)}
+    )
+    _, (axes,) = figures.plot_success(table)
+    assert [label.get_text() for label in axes.get_yticklabels()] == ["random", "safe"]
+    ours, *_, paper = (line for line in axes.get_lines() if len(line.get_xdata()) == 2 and line.get_marker() in "ox")
+    assert ours.get_xdata().tolist() == [0, 75]
+    assert paper.get_xdata().tolist() == pytest.approx([100 * 9 / 500, 100 * 328 / 500])
+
+
+def test_arrivals_rise_from_nothing_to_the_share_of_successes():
+    curves = {
+        ("maze1", name): statistics.arrivals(runs(n, 4, range(5, 5 + n))) for name, n in (("safe", 2), ("fixed", 0))
+    }
+    _, (axes,) = figures.plot_arrivals(curves, 500)
+    safe_alone, fixed = axes.get_lines()
+    assert safe_alone.get_xydata() == pytest.approx(np.array([[0, 0], [5, 25], [6, 50], [500, 50]]))
+    assert fixed.get_xydata().tolist() == [[0, 0], [500, 0]]
+
+
+def evolved(maze):
+    columns = {"a": [0.5, 1.0], "b": [1.0, 0.9]} | {f"p{i}": [i / 20, i / 16] for i in range(1, 17)}
+    return {safe.Experiment("safe", maze): runs(2, 2, **columns)}
+
+
+def test_coefficients_and_weights_beside_the_papers():
+    results = evolved("maze2")
+    table = tables.evolved_table(results, ["a", "b"])
+    _, (axes,) = figures.plot_coefficients({"maze2": next(iter(results.values()))}, table)
+    points, paper, *_ = axes.get_lines()
+    assert points.get_xydata().tolist() == [[0.5, 1.0], [1.0, 0.9]]
+    assert paper.get_xydata().tolist() == [[0.83, 0.98]]
+
+    _, (axes,) = figures.plot_weights(tables.evolved_table(results, WEIGHT_COLUMNS))
+    labels = [label.get_text() for label in axes.get_yticklabels()]
+    assert (labels[0], labels[-1]) == ("p16: goal_up in v", "p1: dist_right in h")
+    ours, paper = (line for line in axes.get_lines() if line.get_marker() in ("o", "x") and len(line.get_xdata()) == 16)
+    assert ours.get_xdata()[-1] == pytest.approx((1 / 20 + 1 / 16) / 2)
+    assert paper.get_xdata()[-1] == -0.27
+
+
+def test_neighbours_are_joined_along_rows_and_columns():
+    _, axes = figures.plot_neighbours([[0, 0], [2, 1], [5, 5]], [[1], [0], [1]])
+    *joins, points = axes.get_lines()
+    assert joins[0].get_xydata().tolist() == [[0, 0], [1, 0], [1, 2]]
+    assert points.get_xydata().tolist() == [[0, 0], [1, 2], [5, 5]]
+    assert [text.get_text() for text in axes.texts] == ["A", "B", "C"]
+    assert axes.yaxis_inverted()
+
+
+def test_who_judges_whom():
+    small = safe.Parameters(population=4, objectives=2, elites=0, generations=1, k=2)
+    judged = {name: next(safe.generations("maze1", name, 1, small)) for name in ("standard", "safe")}
+    _, (standard, coevolving) = figures.plot_judging(judged)
+    for axes, generation in ((standard, judged["standard"]), (coevolving, judged["safe"])):
+        texts = [text.get_text() for text in axes.texts]
+        for fitness in generation.fitness:
+            assert texts.count(f"{fitness:.3g}") >= 2, "the best score, and the fitness"
+    assert "The objective function\nstays as it is." in [text.get_text() for text in standard.texts]
+    novelties = {f"{novelty:.3f}" for novelty in judged["safe"].objective_fitness}
+    assert novelties <= {text.get_text() for text in coevolving.texts}
+
+
+def test_the_style_is_one_that_matplotlib_knows():
+    with plt.rc_context():
+        figures.use_style()
+        assert plt.rcParams["axes.prop_cycle"].by_key()["color"][0] == "#0072B2"

@@ -1,0 +1,123 @@
+"""Statistics held against published worked examples, and against properties that they must have."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import stats
+
+from safe.results import statistics
+from tests.results.test_tables import runs
+
+
+@pytest.mark.parametrize(
+    ("successes", "n", "low", "high"),
+    # Newcombe, Statistics in Medicine 17 (1998) 857-872, Table I, method 3
+    [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611), (1, 29, 0.0061, 0.1718)],
+)
+def test_wilsons_interval(successes, n, low, high):
+    assert statistics.success_interval(successes, n) == pytest.approx((low, high), abs=5e-5)
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "low", "high"),
+    # Newcombe, Statistics in Medicine 17 (1998) 873-890, Table II, method 10
+    [((56, 70), (48, 80), 0.0524, 0.3339), ((9, 10), (3, 10), 0.1705, 0.8090), ((10, 10), (0, 20), 0.6791, 1.0)],
+)
+def test_newcombes_interval(first, second, low, high):
+    found = statistics.compare_rates(*first, *second)
+    assert (found.low, found.high) == pytest.approx((low, high), abs=5e-5)
+
+
+def test_fishers_exact_test():
+    # the lady tasting tea: three of four cups named rightly, p = 0.486 two-sided
+    assert statistics.compare_rates(3, 4, 1, 4).p_value == pytest.approx(34 / 70)
+
+
+def test_equivalence_needs_enough_runs():
+    assert statistics.compare_rates(10, 20, 10, 20).p_equivalence > 0.05
+    assert statistics.compare_rates(500, 1000, 500, 1000).p_equivalence < 0.05
+    assert statistics.compare_rates(500, 1000, 650, 1000).p_equivalence > 0.05
+
+
+@given(st.integers(1, 60), st.integers(1, 60), st.data())
+def test_a_difference_of_rates_turns_round_with_its_samples(n, m, data):
+    first, second = (data.draw(st.integers(0, n)), n), (data.draw(st.integers(0, m)), m)
+    there, back = statistics.compare_rates(*first, *second), statistics.compare_rates(*second, *first)
+    assert (there.difference, there.low, there.high) == pytest.approx((-back.difference, -back.high, -back.low))
+    assert (there.p_value, there.effect, there.p_equivalence) == pytest.approx(
+        (back.p_value, -back.effect, back.p_equivalence)
+    )
+    assert there.low - 1e-9 <= there.difference <= there.high + 1e-9
+    assert 0 <= there.p_value <= 1 + 1e-9
+
+
+def test_means_are_compared_as_scipy_compares_the_samples():
+    rng = np.random.default_rng(5)
+    first, second = rng.normal(3, 2, 40), rng.normal(4, 1, 25)
+    found = statistics.compare_means(first.mean(), first.std(), 40, second.mean(), second.std(), 25)
+    welch = stats.ttest_ind(first, second, equal_var=False)
+    interval = welch.confidence_interval(0.95)
+    assert found.p_value == pytest.approx(welch.pvalue)
+    assert (found.low, found.high) == pytest.approx((interval.low, interval.high))
+    spread = math.sqrt((first.var(ddof=1) + second.var(ddof=1)) / 2)
+    assert found.effect == pytest.approx(found.difference / spread)
+    # two one-sided tests, done on the samples shifted by the margin
+    margin = statistics.MARGIN * spread
+    one_sided = [
+        stats.ttest_ind(first + margin, second, equal_var=False, alternative="greater").pvalue,
+        stats.ttest_ind(first - margin, second, equal_var=False, alternative="less").pvalue,
+    ]
+    assert found.p_equivalence == pytest.approx(max(one_sided))
+
+
+def test_nothing_is_said_of_means_of_single_runs():
+    found = statistics.compare_means(3.0, 0.0, 1, 2.0, 1.0, 9)
+    assert found.difference == 1
+    assert math.isnan(found.p_value)
+    assert math.isnan(found.low)
+    assert math.isnan(statistics.compare_means(3.0, 0.0, 5, 2.0, 0.0, 9).p_equivalence)
+
+
+def test_how_many_runs_it_takes():
+    n = statistics.runs_to_tell(0.5, 0.6)
+    rng = np.random.default_rng(1)
+    counts = rng.binomial(n, [[0.5], [0.6]], (2, 4000))
+    h = 2 * np.abs(np.diff(np.arcsin(np.sqrt(counts / n)), axis=0))
+    assert (h * math.sqrt(n / 2) > 1.96).mean() == pytest.approx(0.8, abs=0.02)
+    assert statistics.runs_to_tell(0.644, 0.656) > 50 * n
+
+
+def test_arrivals_with_failures_censored():
+    # one run is known only up to generation 1: of the three then left, one succeeds in generation 2
+    table = pd.DataFrame({"success": [True, False, True, False, False], "generation": [0, 1, 2, 9, 9]})
+    found = statistics.arrivals(table)
+    assert found.generation.tolist() == [0, 2]
+    assert found.share.tolist() == pytest.approx([1 / 5, 1 - (4 / 5) * (2 / 3)])
+    assert ((found.low < found.share) & (found.share < found.high)).all()
+    assert statistics.arrivals(runs(0, 3)).empty
+
+
+def test_times_are_compared_with_failures_last():
+    quick, slow, never = runs(2, 2, [1, 2]), runs(2, 4, [5, 6]), runs(0, 3)
+    assert statistics.compare_times(quick, slow)[0] == 1
+    assert statistics.compare_times(slow, quick)[0] == 0
+    assert statistics.compare_times(slow, never)[0] == pytest.approx(0.5 + 0.5 * 2 / 4)
+    a12, p_value = statistics.compare_times(slow, slow)
+    assert (a12, p_value) == pytest.approx((0.5, 1))
+    at_once = runs(2, 2, [3, 3])
+    for indistinct in (never, at_once):
+        assert all(math.isnan(value) for value in statistics.compare_times(indistinct, indistinct))
+
+
+def test_the_log_rank_test_of_a_textbook():
+    # Freireich et al. 1963, remission of leukaemia in weeks: the statistic is 16.79
+    treated = [6, 6, 6, 7, 10, 13, 16, 22, 23, 6, 9, 10, 11, 17, 19, 20, 25, 32, 32, 34, 35]
+    placebo = [1, 1, 2, 2, 3, 4, 4, 5, 5, 8, 8, 8, 8, 11, 11, 12, 12, 15, 17, 22, 23]
+    first = pd.DataFrame({"generation": treated, "success": [True] * 9 + [False] * 12})
+    second = pd.DataFrame({"generation": placebo, "success": True})
+    _, p_value = statistics.compare_times(first, second)
+    assert p_value == pytest.approx(stats.chi2.sf(16.79, 1), rel=0.01)
