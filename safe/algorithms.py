@@ -143,6 +143,17 @@ class Parameters:
             )
 
     @property
+    def departures(self) -> dict[str, int | float]:
+        """Those that differ from the paper's, by name: what distinguishes two experiments, and all that need be written.
+
+        Examples
+        --------
+        >>> Parameters(population=50, mutation=0.1).departures
+        {'population': 50, 'mutation': 0.1}
+        """
+        return {field.name: value for field in fields(self) if (value := getattr(self, field.name)) != field.default}
+
+    @property
     def evaluations(self) -> int:
         """Solutions that a run evaluates at the most; random search evaluates exactly these."""
         return self.population * self.generations

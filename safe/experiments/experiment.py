@@ -16,7 +16,7 @@ from collections import deque
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
 from contextlib import suppress
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cached_property
 from queue import Empty, SimpleQueue
 from typing import NamedTuple
@@ -89,13 +89,12 @@ class Experiment:
 
         Parameters are listed where they depart from the paper's: one added later leaves old experiments what they are.
         """
-        paper = asdict(Parameters())
         return {
             "rules": RULES,
             "seed": self.seed,
             "maze": self.maze.drawing(),
             "algorithm": {"objectives": self.algorithm.objectives, "rating": self.algorithm.rating},
-            "parameters": {name: v for name, v in asdict(self.parameters).items() if v != paper[name]},
+            "parameters": self.parameters.departures,
         }
 
     @cached_property

@@ -20,13 +20,12 @@ from __future__ import annotations
 import base64
 import re
 from collections.abc import Iterable
-from dataclasses import asdict
 from urllib.parse import quote
 
 import numpy as np
 
 from safe import checks
-from safe.algorithms import ALGORITHMS, Algorithm, Parameters
+from safe.algorithms import ALGORITHMS, Algorithm
 from safe.evolution import Seed, seed_sequence
 from safe.experiments.experiment import Experiment
 from safe.maze import Maze
@@ -57,13 +56,12 @@ def run_address(experiment: Experiment, run: int) -> str:
     '/7&population=50&mutation=0.1'
     """
     run = checks.integer("run", run, 0)
-    paper = asdict(Parameters())
     return _address(
         view="watch",
         maze=_maze(experiment.maze),
         algorithm=_algorithm(experiment.algorithm),
         seed=f"0x{experiment.digest}/{run}",
-        **{name: repr(v) for name, v in asdict(experiment.parameters).items() if v != paper[name]},
+        **{name: repr(value) for name, value in experiment.parameters.departures.items()},
     )
 
 
