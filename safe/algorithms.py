@@ -144,7 +144,7 @@ class Parameters:
 
     @property
     def departures(self) -> dict[str, int | float]:
-        """Those that differ from the paper's, by name: what distinguishes two experiments, and all that need be written.
+        """Those that differ from the paper's, by name; a text or an identity need name no others.
 
         Examples
         --------

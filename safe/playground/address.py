@@ -52,6 +52,7 @@ def run_address(experiment: Experiment, run: int) -> str:
     --------
     >>> run_address(Experiment("safe", "maze1", seed=3), 7)[:50]
     'view=watch&maze=maze1&algorithm=safe&seed=0xc59dd4'
+    >>> from safe import Parameters
     >>> run_address(Experiment("safe", "maze1", parameters=Parameters(population=50, mutation=0.1)), 7)[-29:]
     '/7&population=50&mutation=0.1'
     """
