@@ -37,7 +37,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    if name == "Playground":  # made when it is asked for, since only then anywidget is needed
+    if name == "Playground":  # imported on first use, since only it needs anywidget
         from safe.playground.widget import Playground
 
         return Playground

@@ -11,7 +11,7 @@ and the algorithms differ only in who judges:
     novelty     the single [0, 1], which never changes
     fixed       the single [1/2, 1/2], which never changes
     safe        a population of random ones, bred by their genotypic novelty (Algorithm 2)
-    random      nobody: there is nothing to select by, so every generation is drawn anew
+    random      nobody: there is nothing to select by, so every generation is drawn at random
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from safe.novelty import ARCHIVE_CAPACITY, K
 from safe.robot import STEPS
 
 COMPONENTS = ("1 / distance", "novelty")  # what an objective function weighs
-COEFFICIENTS = tuple(string.ascii_lowercase[: len(COMPONENTS)])  # what the weights are called: a, b
-RATINGS = ("none", "genotypic novelty")  # how objective functions are rated: a frozen population is not
+COEFFICIENTS = tuple(string.ascii_lowercase[: len(COMPONENTS)])  # the names of the components' coefficients: a, b
+RATINGS = ("none", "genotypic novelty")  # of objective functions; with "none" they never change
 
 
 @dataclass(frozen=True)
@@ -36,18 +36,18 @@ class Algorithm:
     Parameters
     ----------
     name : str
-        A label; what the algorithm does depends on the rest alone.
+        A label, without effect on the runs.
     objectives : sequence of (a, b), or None
-        The objective functions of the first generation; None draws as many as the parameters say,
-        uniformly from [0, 1]. Without any there is nothing to select by: random search.
+        The coefficients of the objective functions of the first generation. None draws them uniformly from [0, 1],
+        as many as `Parameters.objectives` says. With an empty sequence the algorithm is random search.
     rating : {"none", "genotypic novelty"}
-        How objective functions are rated, and so bred, from generation to generation.
-        With "none" they stay as they are.
+        The fitness by which objective functions are bred in each generation. With "none" they never change.
 
     Raises
     ------
     ValueError
-        Where an objective function has not one finite weight for each component, or the rating is unknown.
+        If an objective function does not have one finite coefficient for each component, if the rating is unknown,
+        or if objective functions that evolve are odd in number.
 
     Examples
     --------
@@ -64,14 +64,14 @@ class Algorithm:
         checks.choice("rating", self.rating, RATINGS)
         if self.objectives is None:
             return
-        weights = checks.array("objectives", self.objectives, (None, len(COMPONENTS)), or_empty=True)
-        object.__setattr__(self, "objectives", tuple(map(tuple, weights.tolist())))
-        if self.rating != "none" and (len(weights) == 0 or len(weights) % 2):
-            raise ValueError(f"objectives must be an even number of them where they evolve; got {len(weights)}")
+        coefficients = checks.array("objectives", self.objectives, (None, len(COMPONENTS)), or_empty=True)
+        object.__setattr__(self, "objectives", tuple(map(tuple, coefficients.tolist())))
+        if self.rating != "none" and (len(coefficients) == 0 or len(coefficients) % 2):
+            raise ValueError(f"objectives must be an even number of them where they evolve; got {len(coefficients)}")
 
     @property
     def is_random_search(self) -> bool:
-        """Is there nobody to judge?"""
+        """Is there no objective function, and so nothing to select by?"""
         return self.objectives == ()
 
 
@@ -88,7 +88,7 @@ ALGORITHMS = {
 
 
 def get_algorithm(name: str | Algorithm) -> Algorithm:
-    """An algorithm by its name in ALGORITHMS; one that is no name is passed through."""
+    """An algorithm by its name in ALGORITHMS; an Algorithm is returned as it is."""
     return name if isinstance(name, Algorithm) else ALGORITHMS[checks.choice("algorithm", name, ALGORITHMS)]
 
 
@@ -99,8 +99,8 @@ class Parameters:
     Raises
     ------
     ValueError
-        Where a size, count or rate is out of range. Offspring come in pairs, so a population and its elites
-        must be even numbers.
+        If a size, count or rate is out of range. Offspring come in pairs, so a population and its elites must be
+        even in number.
 
     Examples
     --------
@@ -113,13 +113,13 @@ class Parameters:
     """
 
     population: int = 200  # solutions in a generation
-    objectives: int = 200  # objective functions in a generation, where they evolve
-    generations: int = 500  # at the most
+    objectives: int = 200  # objective functions in a generation, if they are drawn
+    generations: int = 500  # at most
     tournament: int = 5  # individuals drawn for a tournament
     elites: int = 2  # fittest individuals that pass on unchanged
     crossover: float = 0.8  # probability, for a pair of parents
     mutation: float = 0.4  # probability, for an offspring
-    k: int = K  # nearest neighbours that count for novelty
+    k: int = K  # nearest neighbours that count towards novelty
     archive: int = ARCHIVE_CAPACITY  # places in each of the two novelty archives
     steps: int = STEPS  # that a robot takes
     success_distance: int = 2  # cells, taxicab: an end point this near to the goal is a success
@@ -144,7 +144,7 @@ class Parameters:
 
     @property
     def departures(self) -> dict[str, int | float]:
-        """Those that differ from the paper's, by name; a text or an identity need name no others.
+        """The parameters that differ from the paper's, by name.
 
         Examples
         --------
@@ -155,5 +155,5 @@ class Parameters:
 
     @property
     def evaluations(self) -> int:
-        """Solutions that a run evaluates at the most; random search evaluates exactly these."""
+        """The most solutions that a run evaluates; random search evaluates exactly this many."""
         return self.population * self.generations

@@ -1,6 +1,6 @@
 """Checks of what users pass in, made once, before any compiled function sees it.
 
-Every failed check is a ValueError that names the argument, what it must be, and what it was.
+A failed check raises a ValueError that names the argument, says what it must be, and shows what it got.
 """
 
 from __future__ import annotations
@@ -11,12 +11,12 @@ from numbers import Integral, Real
 
 import numpy as np
 
-MOST = 1_000_000  # of anything that is counted or stored: keeps a mistyped size from filling the memory
-LARGEST = 1e100  # of any number in an array: squares of such, and sums of those, are finite
+MOST = 1_000_000  # of anything counted or stored: keeps a mistyped size from filling the memory
+LARGEST = 1e100  # magnitude of any number in an array, so that sums of squares stay finite
 
 
 def shown(value: object) -> str:
-    """The value as an error message shows it: its repr, in one line, cut where it is long."""
+    """The value as an error message shows it: its repr on one line, cut if it is long."""
     try:
         text = re.sub(r"\s*\n\s*", " ", repr(value))
     except Exception:  # of an integer with thousands of digits, of a list in thousands of lists, of a broken class
@@ -25,12 +25,12 @@ def shown(value: object) -> str:
 
 
 def reason(error: Exception) -> str:
-    """What another library says of an error, as our messages quote it: in one line, cut where it is long."""
+    """The message of another library's error, as ours quote it: on one line, cut if it is long."""
     return " ".join(str(error).split())[:100]
 
 
 def is_text(value: object) -> bool:
-    """Can a title, a page and a database show this: a text, not empty, without control characters?"""
+    """Is this a non-empty text without control characters, which a title, a page and a database can show?"""
     return isinstance(value, str) and value != "" and value.isprintable()
 
 
@@ -42,9 +42,9 @@ def text(name: str, value: object) -> str:
 
 
 def integer(name: str, value: object, low: int, high: int | None = None) -> int:
-    """`value` as an int in low..high, both included; no upper bound where `high` is None."""
+    """`value` as an int in low..high, both included; no upper bound if `high` is None."""
     allowed = f"from {low} to {high}" if high is not None else f"of at least {low}"
-    # numpy counts its durations among the integers, and one of them is not a time
+    # numpy counts its durations among the integers
     is_integer = isinstance(value, Integral) and not isinstance(value, bool | np.timedelta64)
     if not is_integer or value < low or (high is not None and value > high):
         raise ValueError(f"{name} must be an integer {allowed}; got {shown(value)}")
@@ -78,7 +78,7 @@ def array(
 ) -> np.ndarray:
     """`value` as a C-ordered float64 array of this shape (None: any length), finite, in [low, high].
 
-    With `or_empty` an empty list is an array of this shape, too.
+    With `or_empty`, an empty list is accepted as an array of this shape without rows.
     """
     try:
         given = np.asarray(value)
@@ -104,7 +104,7 @@ def array(
 
 
 def _are_numbers(given: np.ndarray) -> bool:
-    """Are these real numbers as they are? numpy would read texts and times as well, and cut complex numbers."""
+    """Are these real numbers already? numpy would also convert texts and times, and truncate complex numbers."""
     if given.dtype.kind == "O":
         return all(isinstance(element, Real) for element in given.flat)
     return given.dtype.kind in "biuf"

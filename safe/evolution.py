@@ -2,24 +2,24 @@
 
 One generation:
 
-     1. every solution walks the maze from the start; its end point is what counts
-     2. its components: 1 / (distance to the goal), and novelty
-     3. its fitness: the best score that an objective function gives it (Algorithm 1)
-     4. the best solution so far is kept; within the success distance, the run ends
-     5. objective functions are rated by their genotypic novelty, where they evolve (Algorithm 2)
-     6. the next generation is bred, first of the solutions, then of the objective functions
+     1. every solution's robot walks the maze from the start to its end point
+     2. every solution gets its components: 1 / (distance to the goal), and novelty
+     3. its fitness is the best score that an objective function gives it (Algorithm 1)
+     4. the best solution so far is kept; if it is within the success distance, the run ends
+     5. objective functions, if they evolve, are rated by their genotypic novelty (Algorithm 2)
+     6. the next generation is bred, first the solutions, then the objective functions
 
 Algorithms differ in the population of objective functions that step 3 uses, and in whether step 5 and the second half
-of step 6 take place (see `safe.algorithms`). Random search has no objective functions: it draws every generation anew.
+of step 6 take place (see `safe.algorithms`). Random search has no objective functions, and draws every generation at
+random.
 
-All randomness of a run comes from one numpy.random.Generator(SFC64(seed)), by `random()` alone, in this order: the
-genes of the first solutions, one solution after the other; those of the first objective functions, likewise, where they
-are drawn; then, generation by generation, the breeding of the solutions and that of the objective functions (for the
-draws of a breeding see `safe.operators`). Random search draws the genes of every generation as those of the first.
+All randomness of a run comes from one numpy.random.Generator(SFC64(seed)), and only from its method `random()`, in this
+order: the genes of the first solutions, one solution after the other; then, if objective functions are drawn, their
+genes, likewise; then, generation by generation, the breeding of the solutions and that of the objective functions (for
+the draws of a breeding see `safe.operators`). Random search draws the genes of every generation as those of the first.
 
-The loop is stepped from Python (`generations`) to watch and to teach, or driven to its end in compiled code (`evolve`).
-Both call `advance`, and give the same run, bit for bit.
-"""
+The loop exists once. Python steps through it (`generations`), to watch and to teach, or compiled code runs it to its
+end (`evolve`). Both call `advance`, and give the same run, bit for bit."""
 
 from __future__ import annotations
 
@@ -40,51 +40,51 @@ from safe.novelty import ArchiveArrays, archived, empty_archive, empty_occupancy
 from safe.operators import Breeding, breed, copy_genomes, draw_genomes
 from safe.robot import WEIGHTS, WalkSpace, walk_all, walk_space
 
-RULES = 1  # raised whenever a change alters what any run gives
+RULES = 1  # version of the rules, raised with every change that alters any run
 
 Seed = int | Sequence[int] | np.random.SeedSequence
 
 
 @dataclass(frozen=True)
 class Run:
-    """What came of a run.
+    """The outcome of a run.
 
-    `controller` and `coefficients` belong to the best solution: the first with the smallest distance.
-    In a successful run that is the successful one.
+    `controller` and `coefficients` belong to the best solution, the first with the smallest distance. In a successful
+    run it is the one that succeeded.
     """
 
     success: bool
-    generation: int  # the last one, counted from 0: in a successful run, the generations to success
+    generation: int  # the last one, counted from 0; in a successful run, the generations to success
     distance: int  # of the best solution's end point to the goal, taxicab, in cells
     controller: tuple[float, ...]  # p_1..p_16
-    coefficients: tuple[float, ...]  # (a, b) of the objective function that gave it its fitness; () where there is none
+    coefficients: tuple[float, ...]  # (a, b) of the objective function behind its fitness; () in random search
     evaluations: int  # solutions evaluated
 
 
 @dataclass(frozen=True, eq=False)
 class Generation(Run):
-    """A run up to one generation, and that generation, evaluated, before the next is bred. All arrays are copies."""
+    """The run so far, and its latest generation after evaluation, before the next is bred. All arrays are copies."""
 
     genomes: np.ndarray  # float, (population, 16): p_1..p_16 of each solution
     endpoints: np.ndarray  # int, (population, 2): row and column
     distances: np.ndarray  # int, (population,): end point to goal, taxicab, in cells
-    components: np.ndarray  # float, (components, population): what objective functions weigh; 0 what none can weigh
-    novelty: np.ndarray | None  # float, (population,); None where no objective function can weigh it
+    components: np.ndarray  # float, (components, population); 0 for one that no objective function can weigh
+    novelty: np.ndarray | None  # float, (population,); None if no objective function can weigh it
     fitness: np.ndarray | None  # float, (population,); None in random search
-    objectives: np.ndarray  # float, (objective functions, components): the weights of each
-    objective_fitness: np.ndarray | None  # float, (objective functions,); None where they do not evolve
-    winners: np.ndarray | None  # int, (population,): which objective function gave a solution its fitness
+    objectives: np.ndarray  # float, (objective functions, components): the coefficients of each
+    objective_fitness: np.ndarray | None  # float, (objective functions,); None if they do not evolve
+    winners: np.ndarray | None  # int, (population,): the objective function behind each solution's fitness
     archive: tuple[np.ndarray, np.ndarray]  # points (n, 2) and scores (n,), the oldest first
     objective_archive: tuple[np.ndarray, np.ndarray]  # points (n, components) and scores (n,)
 
     @property
     def run(self) -> Run:
-        """The run so far, without the generation."""
+        """The run so far, without the arrays of its generation."""
         return Run(*(getattr(self, field.name) for field in fields(Run)))
 
 
 def evolve(maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters: Parameters = Parameters()) -> Run:
-    """One run, from its first generation to its end, in compiled code.
+    """Evolve one run to its end, in compiled code.
 
     Parameters
     ----------
@@ -93,14 +93,14 @@ def evolve(maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters:
     algorithm : Algorithm or str
         The algorithm, or its name in `safe.ALGORITHMS`.
     seed : int, sequence of int, or numpy.random.SeedSequence
-        Where the run's randomness starts from. The same seed gives the same run, everywhere.
+        The seed of the run's random numbers. The same seed gives the same run, on every machine.
     parameters : Parameters
         Sizes and rates; the paper's by default.
 
     Raises
     ------
     ValueError
-        Where a name is unknown or the seed is none.
+        If a name is unknown or the seed is not valid.
 
     Examples
     --------
@@ -114,15 +114,15 @@ def evolve(maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters:
 def evolve_until_stopped(
     stop: np.ndarray, maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters: Parameters
 ) -> Run | None:
-    """`evolve`, for as long as the single value of `stop` is False; None where another thread made it True before."""
+    """As `evolve`, but return None as soon as another thread sets the single value of `stop` to True."""
     compile_kernels()
     state, settings, rng = start_run(maze, algorithm, seed, parameters)
     return run_so_far(state, settings) if run_to_end(state, settings, rng, stop) else None
 
 
 def compile_kernels() -> None:
-    """Compile what a run takes, or load what is compiled: then no run waits for it, and none counts it as its time."""
-    with _compiling:  # of several threads one compiles, and the others wait
+    """Compile all that a run needs, or load it from the disk, so that no run's time includes compiling."""
+    with _compiling:  # one thread compiles, and the others wait
         _compile_kernels()
 
 
@@ -139,7 +139,7 @@ def _compile_kernels() -> None:
 def generations(
     maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters: Parameters = Parameters()
 ) -> Iterator[Generation]:
-    """The same run as `evolve`, one generation at a time. Arguments and errors are those of `evolve`.
+    """The run of `evolve`, one generation at a time. Arguments and errors are those of `evolve`.
 
     Examples
     --------
@@ -150,12 +150,12 @@ def generations(
     2 600
     """
     compile_kernels()
-    begun = start_run(maze, algorithm, seed, parameters)  # arguments are checked now, not at the first step
-    return step_through(*begun)
+    start = start_run(maze, algorithm, seed, parameters)  # checks the arguments now, not at the first step
+    return step_through(*start)
 
 
 class Settings(NamedTuple):
-    """What stays the same in a run."""
+    """The constants of a run."""
 
     maze: MazeArrays
     steps: int
@@ -169,7 +169,7 @@ class Settings(NamedTuple):
 
 
 class State(NamedTuple):
-    """Everything that changes in a run; the arrays are changed in place."""
+    """The variables of a run; its arrays are changed in place."""
 
     genomes: np.ndarray  # float64, (population, 16)
     endpoints: np.ndarray  # int64, (population, 2)
@@ -186,7 +186,7 @@ class State(NamedTuple):
     best_coefficients: np.ndarray  # float64, (components,)
     number: np.ndarray  # int64, (1,): of the generation, -1 before the first
     best_distance: np.ndarray  # int64, (1,)
-    # worked in, of no meaning between generations:
+    # working memory, whose contents mean nothing between generations:
     offspring: np.ndarray
     objective_offspring: np.ndarray
     walk_space: WalkSpace
@@ -195,7 +195,7 @@ class State(NamedTuple):
 def start_run(
     maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters: Parameters
 ) -> tuple[State, Settings, np.random.Generator]:
-    """The state before the first generation, the settings, and the source of randomness."""
+    """The state before the first generation, the settings, and the random generator."""
     maze, algorithm = load_maze(maze), get_algorithm(algorithm)
     if not isinstance(parameters, Parameters):
         raise ValueError(f"parameters must be a Parameters; got {checks.shown(parameters)}")
@@ -304,7 +304,7 @@ GOAL, NOVELTY = COMPONENTS.index("1 / distance"), COMPONENTS.index("novelty")
 
 @kernel
 def run_to_end(state: State, settings: Settings, rng: np.random.Generator, stop: np.ndarray) -> bool:
-    """Run to the end, or until another thread sets `stop`. Has the end been reached?"""
+    """Run to the end, or until another thread sets `stop`; returns whether the end was reached."""
     while advance(state, settings, rng):
         if stop[0]:
             return False
@@ -313,7 +313,7 @@ def run_to_end(state: State, settings: Settings, rng: np.random.Generator, stop:
 
 @kernel
 def advance(state: State, settings: Settings, rng: np.random.Generator) -> bool:
-    """Breed the next generation and evaluate it (the first is only evaluated). Is there another after it?"""
+    """Breed and evaluate the next generation (the first is only evaluated); returns whether another follows."""
     if state.number[0] >= 0:
         breed_both(state, settings, rng)
     state.number[0] += 1
@@ -323,20 +323,20 @@ def advance(state: State, settings: Settings, rng: np.random.Generator) -> bool:
         # Algorithm 2: the fitness of an objective function is the novelty of its genome
         score_points(state.objectives, state.objective_archive, settings.k, False, state.objective_fitness)
     is_last = state.number[0] + 1 >= settings.generations
-    # random search has no first success to stop at: it looks for the best of all that it may draw
+    # random search does not stop at a success: its result is the best of all solutions that it may draw
     has_succeeded = len(state.objectives) > 0 and state.best_distance[0] <= settings.success_distance
     return not (is_last or has_succeeded)
 
 
 @kernel
 def evaluate(state: State, settings: Settings) -> None:
-    """End points, components, fitness."""
+    """Steps 1 to 3: end points, components, fitness."""
     walk_all(settings.maze, state.genomes, settings.steps, state.walk_space, state.endpoints)
     goal_row, goal_column = settings.maze.goal
     for i in range(len(state.genomes)):
         distance = abs(state.endpoints[i, 0] - goal_row) + abs(state.endpoints[i, 1] - goal_column)
         state.distances[i] = distance
-        # at the goal itself 1 / distance has no value: it counts as at distance 1/2
+        # at the goal itself 1 / distance is undefined: it counts as at distance 1/2
         state.components[GOAL, i] = 1.0 / distance if distance > 0 else 2.0
     if settings.weigh_novelty:
         score_cells(state.endpoints, state.archive, state.occupancy, settings.k, state.components[NOVELTY])
@@ -348,8 +348,8 @@ def evaluate(state: State, settings: Settings) -> None:
 def best_scores(components: np.ndarray, objectives: np.ndarray, fitness: np.ndarray, winners: np.ndarray) -> None:
     """Algorithm 1: the fitness of S_i is max_j O_j(S_i), and the first such O_j is its winner.
 
-    Components are never negative, so an objective function that weighs none of them more than an earlier one does
-    cannot win. It is left out, which leaves few of a random population.
+    Components are never negative, so an objective function whose coefficients are all at most those of an earlier one
+    cannot win. Leaving such dominated ones out leaves few of a random population.
     """
     contenders = np.empty(len(objectives), dtype=np.int64)
     m = 0
@@ -368,7 +368,7 @@ def best_scores(components: np.ndarray, objectives: np.ndarray, fitness: np.ndar
         for c in range(len(components)):  # O_j(S_i), Equation 1
             for i in range(n):
                 scores[i] += objectives[j, c] * components[c, i]
-        for i in range(n):  # selects, not branches: the processor does several at once
+        for i in range(n):  # selects, not branches, so that the processor handles several solutions at once
             is_better = scores[i] > fitness[i]
             fitness[i] = scores[i] if is_better else fitness[i]
             winners[i] = j if is_better else winners[i]
@@ -376,19 +376,19 @@ def best_scores(components: np.ndarray, objectives: np.ndarray, fitness: np.ndar
 
 @kernel
 def _is_dominated(objectives: np.ndarray, j: int, contenders: np.ndarray, m: int) -> bool:
-    """Does one of the first m contenders weigh every component at least as much as the j-th objective function does?"""
+    """Does one of the first m contenders have coefficients that are all at least those of the j-th one?"""
     for e in range(m):
-        weighs_more = False
+        exceeds = False
         for c in range(objectives.shape[1]):
-            weighs_more |= objectives[j, c] > objectives[contenders[e], c]
-        if not weighs_more:
+            exceeds |= objectives[j, c] > objectives[contenders[e], c]
+        if not exceeds:
             return True
     return False
 
 
 @kernel
 def keep_best(state: State) -> None:
-    """Keep the first solution that is nearer to the goal than all before it."""
+    """Step 4: keep the first solution that is nearer to the goal than all before it."""
     for i in range(len(state.distances)):
         if state.distances[i] < state.best_distance[0]:
             state.best_distance[0] = state.distances[i]
@@ -401,7 +401,7 @@ def keep_best(state: State) -> None:
 
 @kernel
 def breed_both(state: State, settings: Settings, rng: np.random.Generator) -> None:
-    """The next generation of solutions and, where they evolve, of objective functions."""
+    """Step 6: the next generation of solutions and, if they evolve, of objective functions."""
     if len(state.objectives) == 0:
         draw_genomes(rng, settings.breeding.low, settings.breeding.high, state.genomes)
         return

@@ -1,16 +1,16 @@
 """The maze: a grid of open and wall cells, a start, a goal, and what a robot senses in each cell.
 
 Positions are (row, column), counted from 0, with (0, 0) at the top left. A robot reads eight sensors,
-in the paper's order (Section 3.1):
+in the order of the paper's Section 5:
 
     dist_right, goal_right, dist_left, goal_left, dist_down, goal_down, dist_up, goal_up
 
-dist_x is how many cells one can go in direction x up to and including the first wall cell, so a wall
-next to the robot reads 1; where there is no wall it is how many cells are left to the edge.
-goal_down is the height of the maze if the goal lies below the robot, otherwise goal_up is;
-goal_right is the width if the goal lies to the right, otherwise goal_left is; the other two are 0.
+dist_x counts the cells in direction x up to and including the first wall cell, so a wall next to the robot reads 1; if
+there is no wall, it counts the cells up to the edge. goal_down is the height of the maze if the goal lies below the
+robot, otherwise goal_up is; goal_right is its width if the goal lies to the right, otherwise goal_left is; the other
+two are 0.
 
-What a robot senses depends only on where it stands, so all of it is computed once, when the maze is made.
+The readings depend only on the cell, so they are computed once for all cells, when the maze is made.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ LONGEST_SIDE = 2048  # cells; keeps a mistyped size out of memory
 
 
 class MazeArrays(NamedTuple):
-    """What the compiled functions need of a maze."""
+    """A maze as the compiled functions take it."""
 
-    walls: np.ndarray  # bool, (height, width), True where a wall is
+    walls: np.ndarray  # bool, (height, width), True for a wall
     sensors: np.ndarray  # float64, (height, width, 8), in the order of SENSORS
     start: tuple[int, int]
     goal: tuple[int, int]
@@ -52,17 +52,17 @@ class Maze:
     Parameters
     ----------
     walls : array of bool, shape (height, width)
-        True where a cell is wall.
+        True for wall, False for open.
     start, goal : (row, column)
-        Where the robot starts and where it should end; open cells, connected by open cells.
+        Where a robot starts, and where it should end: two open cells, connected by open cells.
     name : str
         A label. Two mazes with the same cells, start and goal are equal, whatever they are called.
 
     Raises
     ------
     ValueError
-        Where the walls are no rectangle, start or goal lie outside or in a wall or coincide,
-        or no way leads from one to the other.
+        If the walls do not form a rectangle, if start or goal lies outside or in a wall, if they coincide, or if no
+        way leads from one to the other.
 
     Examples
     --------
@@ -135,16 +135,16 @@ class Maze:
 
     @property
     def arrays(self) -> MazeArrays:
-        """What the compiled functions need of this maze."""
+        """The maze as the compiled functions take it."""
         return MazeArrays(self.walls, self.sensors, self.start, self.goal)
 
     def readings(self, cell: tuple[int, int]) -> dict[str, float]:
-        """What a robot in an open cell (row, column) senses, by the name of the sensor, in the order of SENSORS.
+        """The sensors' readings in an open cell (row, column), by name, in the order of SENSORS.
 
         Raises
         ------
         ValueError
-            Where the cell is outside or wall.
+            If the cell is outside or wall.
 
         Examples
         --------
@@ -165,17 +165,17 @@ class Maze:
     def __hash__(self) -> int:
         return hash((self.shape, self.walls.tobytes(), self.start, self.goal))
 
-    def __reduce__(self):  # made anew, and so checked again, where it is unpickled
+    def __reduce__(self):  # unpickling makes a new maze, and so checks it
         return Maze, (self.walls, self.start, self.goal, self.name)
 
 
 def ways_to_goal(maze: Maze) -> np.ndarray:
-    """How many cells it is to the goal on the shortest way through open cells, moving along rows and columns.
+    """The length, in cells, of the shortest way from each cell to the goal, along rows and columns of open cells.
 
     Returns
     -------
     array of int, shape (height, width)
-        -1 in walls, and where the goal cannot be reached from.
+        -1 for walls, and for cells that no way connects with the goal.
 
     Examples
     --------

@@ -15,9 +15,14 @@ MAZE_FOLDER = Path(__file__).parent / "mazes"
 
 
 def load_maze(name_or_path: str | Path | Maze) -> Maze:
-    """A maze of the paper by its name, or one from a file.
+    """A packaged maze by its name, or one from a file; a Maze is returned as it is.
 
     A file holds either a drawing (see `Maze.from_drawing`) or a list (see `parse_maze`).
+
+    Raises
+    ------
+    ValueError
+        If there is no such maze or file, or the file does not describe a maze.
 
     Examples
     --------
@@ -34,7 +39,7 @@ def load_maze(name_or_path: str | Path | Maze) -> Maze:
         if path.exists() and not path.is_file():  # reading a pipe or a device might never end
             raise OSError(errno.EINVAL, "not a file")
         text = path.read_text(encoding="utf-8")
-    except (OSError, ValueError) as error:  # ValueError: no text file, or no path at all
+    except (OSError, ValueError) as error:  # ValueError: not a text file, or not a possible path
         reason = getattr(error, "strerror", None) or "not a text file"
         raise ValueError(
             f"maze must be one of {', '.join(map(repr, names))} or the path of a maze file; "
@@ -44,7 +49,7 @@ def load_maze(name_or_path: str | Path | Maze) -> Maze:
 
 
 def load_mazes(names: str) -> list[Maze]:
-    """Mazes by their names or paths, separated by blanks.
+    """Several mazes: their names or paths in one text, separated by blanks.
 
     Examples
     --------
@@ -81,7 +86,12 @@ def parse_maze(text: str, name: str = "maze") -> Maze:
         goal 41,15
         wall 6,18 23,18         a straight line of cells, both ends included
 
-    Walls run along a row, a column or a diagonal. A text is a list where one of its lines begins with `size`.
+    Walls run along a row, a column or a diagonal. A text is read as a list if one of its lines begins with `size`.
+
+    Raises
+    ------
+    ValueError
+        If the text describes no maze; the message names the line.
     """
     lines = [line.split("#")[0].split() for line in _lines(text)]
     if not any(words and words[0] == "size" for words in lines):

@@ -1,10 +1,9 @@
 """The nearest neighbours of points, found in a grid.
 
-Points are sorted into the cells of a grid over their first two coordinates. Around a point one looks as far as its
-nearest neighbours would be if points were spread evenly, and only into the cells that are that near; then farther,
-where too few were found. So a search costs about as much as it finds, and gives exactly the distances that measuring
-all points would give. Euclidean distances stay squared: the order is the same.
-"""
+Points are sorted into the cells of a grid over their first two coordinates. A search around a point reaches as far as
+its nearest neighbours would lie if all points were spread evenly, looks only into the cells within that reach, and
+extends it if it found too few. Its cost is about proportional to what it finds, and it gives exactly the distances that
+measuring all points would give. Euclidean distances stay squared, which leaves their order unchanged."""
 
 from __future__ import annotations
 
@@ -17,7 +16,7 @@ from safe.kernel import index, kernel
 
 
 class Grid(NamedTuple):
-    """Rows and columns of cells over the first two coordinates; what lies outside belongs to the outermost cells."""
+    """Rows and columns of cells over the first two coordinates; points outside belong to the outermost cells."""
 
     low: tuple[float, float]  # where the first cells begin
     scale: tuple[float, float]  # cells in a unit of length
@@ -25,9 +24,9 @@ class Grid(NamedTuple):
 
 
 PER_CELL = 4.0  # points in a cell, on average
-SLACK = 1.35  # times as many neighbours are looked for at first as are wanted, so that there are rarely too few
-MANY = 1000  # values, or three times as many as are wanted, are better not put in order by comparing all with all
-NEARLY_NOTHING = 1e-150  # an extent below which points count as one: even LARGEST over it is a number
+SLACK = 1.35  # a first search expects this many times the neighbours wanted, so that it rarely finds too few
+MANY = 1000  # from here on, or from three times those wanted, a heap orders values faster than comparing all pairs
+NEARLY_NOTHING = 1e-150  # an extent below which points count as one: LARGEST divided by it is still finite
 
 
 # Compiled functions
@@ -35,7 +34,7 @@ NEARLY_NOTHING = 1e-150  # an extent below which points count as one: even LARGE
 
 @kernel
 def grid_over(points: np.ndarray, size: int) -> Grid:
-    """A grid over the range of these points, for so many in all."""
+    """A grid over the range of these points, for `size` points in all."""
     low, high = points[0].copy(), points[0].copy()
     for i in range(1, len(points)):
         for axis in range(points.shape[1]):
@@ -49,7 +48,7 @@ def grid_over(points: np.ndarray, size: int) -> Grid:
 
 @kernel
 def _axis(low: float, high: float, cells: int) -> tuple[float, float, int]:
-    """Begin, scale and side of one axis of a grid."""
+    """Start, scale and number of cells of one axis of a grid."""
     extent = high - low
     return (low, cells / extent, cells) if extent > NEARLY_NOTHING else (low, 0.0, 1)
 
@@ -70,7 +69,7 @@ def sort_into_cells(
     ends: np.ndarray,
     places: np.ndarray,
 ) -> int:
-    """Fill `members`, `ends` and `places` of `score_points`. How many members are there?"""
+    """Fill `members`, `ends` and `places` of `score_points`; returns the number of members."""
     n, dimensions = points.shape
     size = n + archived_size
     unsorted = np.zeros((len(members), size))
@@ -80,7 +79,7 @@ def sort_into_cells(
         for j in range(archived_size):
             unsorted[axis, n + j] = archived_points[axis, j]
     cells = np.empty(size, dtype=np.int64)
-    gaps = np.zeros(len(ends), dtype=np.int64)  # where the next point of each cell goes
+    gaps = np.zeros(len(ends), dtype=np.int64)  # the place of the next point of each cell
     for j in range(size):
         cells[j] = _cell_along(grid, 0, unsorted[0, j]) * grid.sides[1] + _cell_along(grid, 1, unsorted[1, j])
         gaps[cells[j] + 1] += 1
@@ -100,7 +99,7 @@ def sort_into_cells(
 
 @kernel
 def even_reach(grid: Grid, share: float) -> float:
-    """How far around a point this share of all points is, and some more, where they are spread evenly."""
+    """The distance within which this share of all points, and some more, would lie if they were spread evenly."""
     height = grid.sides[0] / grid.scale[0] if grid.scale[0] > 0 else 0.0
     width = grid.sides[1] / grid.scale[1] if grid.scale[1] > 0 else 0.0
     # in the plane the area of a circle; on a line its length
@@ -120,10 +119,10 @@ def look_around(
     taxicab: bool,
     distances: np.ndarray,
 ) -> int:
-    """Put distances of members to the point into `distances`, the `wanted` smallest among them. How many are there?"""
+    """Put the distances of members to the point into `distances`, at least the `wanted` smallest; returns how many."""
     rows, columns = grid.sides
     while True:
-        margin = reach * (1 + 1e-9)  # the borders of cells are rounded: none is to be missed for that
+        margin = reach * (1 + 1e-9)  # the borders of cells are rounded, and no cell may be missed
         top, bottom = _cell_along(grid, 0, point[0] - margin), _cell_along(grid, 0, point[0] + margin)
         left, right = _cell_along(grid, 1, point[1] - margin), _cell_along(grid, 1, point[1] + margin)
         is_all = (bottom - top + 1) * (right - left + 1) == rows * columns
@@ -148,30 +147,30 @@ def _measure(
     distances: np.ndarray,
     found: int,
 ) -> int:
-    """Append the distances of members[:, start:end] to the point, but for those above the limit. How many are there?"""
+    """Append the distances of members[:, start:end] to the point up to the limit; returns how many there are now."""
     x, y = point[0], point[1]
     for j in range(index(start), index(end)):
         distance = _along_axis(members[0, j] - x, taxicab) + _along_axis(members[1, j] - y, taxicab)
         for axis in range(2, len(point)):
             distance += _along_axis(members[axis, j] - point[axis], taxicab)
-        distances[index(found)] = distance  # no branch: the processor would often guess it wrong
+        distances[index(found)] = distance  # no branch: the processor would often mispredict it
         found += distance <= limit
     return found
 
 
 @kernel
 def _along_axis(difference: float, taxicab: bool) -> float:
-    """What a difference in one coordinate adds to a taxicab or squared Euclidean distance."""
+    """The contribution of a difference in one coordinate to a taxicab or squared Euclidean distance."""
     return abs(difference) if taxicab else difference * difference
 
 
 @kernel
 def smallest(values: np.ndarray, size: int, wanted: int, ascending: np.ndarray) -> None:
-    """Put the `wanted` smallest of the first `size` values, none of them negative, in order into `ascending`."""
+    """Put the `wanted` smallest of the first `size` values, which are not negative, in order into `ascending`."""
     if size > min(3 * wanted, MANY):
         for j in range(wanted):
             ascending[j] = np.inf
-        for i in range(size):  # the smallest so far are a heap, the largest of them at its top
+        for i in range(size):  # the smallest so far form a heap with the largest of them on top
             if values[i] < ascending[0]:
                 _sink(values[i], ascending, wanted)
         for last in range(wanted - 1, 0, -1):
@@ -183,17 +182,17 @@ def smallest(values: np.ndarray, size: int, wanted: int, ascending: np.ndarray) 
         ascending[j] = -1.0
     for i in range(size):
         value = values[i]
-        smaller = 0  # as many as there are tell its place: no branch for the processor to guess wrong
+        smaller = 0  # the number of smaller values is its place: no branch for the processor to mispredict
         for j in range(size):
             smaller += values[j] < value
         ascending[smaller] = value
-    for j in range(1, size):  # equal ones went to the same place
+    for j in range(1, size):  # equal values went to the same place
         ascending[j] = max(ascending[j], ascending[j - 1])
 
 
 @kernel
 def _sink(value: float, heap: np.ndarray, size: int) -> None:
-    """Put a value in the place of the largest, at the top of a heap, and let it sink below all that are larger."""
+    """Replace the largest value, at the top of a heap, by another, and let it sink below all larger ones."""
     node, child = 0, 1
     while child < size:
         if child + 1 < size and heap[child + 1] > heap[child]:

@@ -1,16 +1,16 @@
-"""Novelty: how far a point lies from the points seen so far, its nearest neighbours first (Section 3.3).
+"""Novelty: how far a point lies from its nearest neighbours among the points seen so far (Section 3 of the paper).
 
-The novelty of a point is the sum of its distances to its k nearest neighbours, divided by k. The neighbours are
-all other points of the population, and all points of an archive. The points of a generation are scored in order,
-and each is offered to the archive right after its score is known, so that later points of the same generation
-meet it there too, and its double in the population as well.
+The novelty of a point is the sum of its distances to its k nearest neighbours, divided by k. Neighbours are all other
+points of the population and all points of an archive. The points of a generation are scored in order, and each is
+offered to the archive right after it is scored. Later points of the same generation can therefore meet it twice: in the
+population and in the archive.
 
-The archive has a fixed number of places. While there is room every point enters. Then a newcomer whose score is
-strictly above the lowest in the archive takes that point's place, that of the oldest such point on a tie.
-A point keeps the score that it entered with.
+The archive has a fixed number of places. Every point enters while there is room. Then a newcomer whose score is
+strictly above the lowest in the archive replaces the point with that score, the oldest one on a tie. A point keeps the
+score with which it entered.
 
-The same rule serves solutions, by taxicab distance between end points, and objective functions, by Euclidean
-distance between genomes.
+The same rule rates solutions, by the taxicab distance between end points, and objective functions, by the Euclidean
+distance between genomes (Section 6).
 """
 
 from __future__ import annotations
@@ -27,36 +27,36 @@ from safe.neighbours import even_reach, grid_over, look_around, smallest, sort_i
 METRICS = ("taxicab", "euclidean")
 K = 15
 ARCHIVE_CAPACITY = 1000
-RINGS = 24  # of cells around a point that are searched: to go through more would cost more than to measure all
-MOST_DIMENSIONS = 1000  # of a point, for each of which an archive reserves memory
+RINGS = 24  # of cells searched around a point: searching more would cost more than measuring all distances
+MOST_DIMENSIONS = 1000  # of a point: an archive reserves memory for each
 
 
 class ArchiveArrays(NamedTuple):
-    """What the compiled functions need of an archive; changed in place."""
+    """An archive as the compiled functions take it; changed in place."""
 
     points: np.ndarray  # float64, (dimensions, capacity)
     scores: np.ndarray  # float64, (capacity,), as they were on entry
     entry: np.ndarray  # int64, (capacity,), 0 for the first point that ever entered
-    heap: np.ndarray  # int64, (capacity,), places as a binary heap: the lowest score first, and of equals the oldest
+    heap: np.ndarray  # int64, (capacity,), places as a binary heap: the lowest score first, the oldest on a tie
     counts: np.ndarray  # int64, (2,): points in it now, points that ever entered
 
 
 class NoveltyArchive:
-    """An archive of points, and the novelty of new ones.
+    """An archive of points, which scores the novelty of new ones.
 
     Parameters
     ----------
     capacity : int
-        How many points there is room for.
+        The number of places.
     k : int
-        How many nearest neighbours count.
+        The number of nearest neighbours that count.
     metric : {"taxicab", "euclidean"}
-        How the distance between two points is measured.
+        The distance between two points.
 
     Raises
     ------
     ValueError
-        Where capacity is not in 0..1,000,000, k not in 1..1,000,000, or the metric is unknown.
+        If capacity is not in 0..1,000,000 or k not in 1..1,000,000, or if the metric is unknown.
 
     Examples
     --------
@@ -66,8 +66,8 @@ class NoveltyArchive:
     >>> archive.score([[0, 0], [0, 1], [0, 4]]).tolist()
     [2.5, 1.0, 3.0]
 
-    The second scores (1 + 1) / 2 and not (1 + 3) / 2: the first is its neighbour in the population
-    and, having entered by then, in the archive too.
+    The second scores (1 + 1) / 2 rather than (1 + 3) / 2: the first is its neighbour in the population and, having
+    entered by then, in the archive as well.
 
     >>> len(archive), archive.scores.tolist()
     (3, [2.5, 1.0, 3.0])
@@ -77,10 +77,10 @@ class NoveltyArchive:
         self.capacity = checks.integer("capacity", capacity, 0, checks.MOST)
         self.k = checks.integer("k", k, 1, checks.MOST)
         self.metric = checks.choice("metric", metric, METRICS)
-        self._arrays: ArchiveArrays | None = None  # made with the first points, which tell the dimensions
+        self._arrays: ArchiveArrays | None = None  # made with the first points, which set the dimensions
 
     def score(self, points: np.ndarray) -> np.ndarray:
-        """The novelty of one generation, in order; what the archive admits of it stays there.
+        """Score the points of one generation in order; those that the archive admits stay in it.
 
         Parameters
         ----------
@@ -93,8 +93,8 @@ class NoveltyArchive:
         Raises
         ------
         ValueError
-            Where the points are not finite, farther out than 1e100, have other dimensions than those before, or
-            not 1..1000 of them.
+            If the points are not finite or exceed 1e100 in magnitude, if they do not have 1 to 1000 dimensions, or
+            not as many as the points before.
         """
         dimensions = None if self._arrays is None else len(self._arrays.points)
         points = checks.array("points", points, (None, dimensions))
@@ -110,17 +110,17 @@ class NoveltyArchive:
 
     @property
     def points(self) -> np.ndarray:
-        """The points in the archive, shape (len(archive), dimensions), the oldest first; a copy."""
+        """A copy of the archive's points, the oldest first: array of float, shape (len(archive), dimensions)."""
         return np.empty((0, 0)) if self._arrays is None else archived(self._arrays)[0]
 
     @property
     def scores(self) -> np.ndarray:
-        """The scores that they entered with, shape (len(archive),); a copy."""
+        """A copy of the scores with which they entered: array of float, shape (len(archive),)."""
         return np.empty(0) if self._arrays is None else archived(self._arrays)[1]
 
 
 def empty_archive(capacity: int, dimensions: int) -> ArchiveArrays:
-    """An archive without a point in it."""
+    """An archive without points."""
     return ArchiveArrays(
         points=np.zeros((dimensions, capacity)),
         scores=np.zeros(capacity),
@@ -131,12 +131,12 @@ def empty_archive(capacity: int, dimensions: int) -> ArchiveArrays:
 
 
 def empty_occupancy(shape: tuple[int, int]) -> np.ndarray:
-    """How many points are in each cell of a maze (none), with a margin of RINGS around it that never holds any."""
+    """The count of points in each cell of a maze, all zero, with an empty margin of RINGS cells around the maze."""
     return np.zeros((shape[0] + 2 * RINGS, shape[1] + 2 * RINGS), dtype=np.int32)
 
 
 def archived(archive: ArchiveArrays) -> tuple[np.ndarray, np.ndarray]:
-    """Copies of an archive's points, shape (n, dimensions), and of their scores, the oldest first."""
+    """Copies of an archive's points, shape (n, dimensions), and their scores, shape (n,), the oldest first."""
     size = archive.counts[0]
     oldest_first = np.argsort(archive.entry[:size])
     return archive.points[:, oldest_first].T.copy(), archive.scores[oldest_first]
@@ -144,20 +144,20 @@ def archived(archive: ArchiveArrays) -> tuple[np.ndarray, np.ndarray]:
 
 # Compiled functions
 #
-# There are two ways to find the nearest neighbours, and both are exact.
+# Nearest neighbours are found in one of two ways, both exact.
 #
 # End points are cells of a maze, so taxicab distances are whole numbers and many points share a cell. `score_cells`
-# keeps count of the points in every cell, and adds the counts up ring by ring around a point until it has k neighbours.
-# Where they are farther than some rings, in a large and empty maze, it measures the distance to every point.
+# counts the points in every cell, and sums these counts ring by ring around a point until it has k neighbours. If they
+# lie beyond the outermost ring, as in a large and empty maze, it measures the distance to every point.
 #
-# `score_points` serves any points. It looks for the neighbours of each in a grid (see `safe.neighbours`).
+# `score_points` takes any points, and searches a grid for the neighbours of each (see `safe.neighbours`).
 
 
 @kernel
 def score_cells(cells: np.ndarray, archive: ArchiveArrays, occupancy: np.ndarray, k: int, scores: np.ndarray) -> None:
     """Score cells (int64, (n, 2), row and column) by taxicab distance, in order, offering each to the archive.
 
-    `occupancy` (see `empty_occupancy`) counts the archive's points in each cell, before and after.
+    `occupancy` (see `empty_occupancy`) counts the archive's points in each cell, on entry and on return.
     """
     n = len(cells)
     for i in range(n):
@@ -185,7 +185,7 @@ def score_cells(cells: np.ndarray, archive: ArchiveArrays, occupancy: np.ndarray
 
 @kernel
 def _sum_over_rings(row: int, column: int, occupancy: np.ndarray, wanted: int) -> int:
-    """The summed distances from a point to the `wanted` nearest others; -1 if they are not all within the rings."""
+    """The sum of the distances from a point to the `wanted` nearest others; -1 if some lie beyond the rings."""
     found = occupancy[row, column] - 1  # without the point itself
     total = 0
     for radius in range(1, RINGS + 1):
@@ -206,7 +206,7 @@ def _sum_over_rings(row: int, column: int, occupancy: np.ndarray, wanted: int) -
 def _sum_over_all(
     row: int, column: int, occupancy: np.ndarray, cells: np.ndarray, archived: np.ndarray, size: int, wanted: int
 ) -> int:
-    """The same sum, by the distances of all cells and of the `size` points of the archive: how many are at each?"""
+    """The same sum, from the number of points, in the population and in the archive, at every distance."""
     at_distance = np.zeros(occupancy.shape[0] + occupancy.shape[1], dtype=np.int64)
     for j in range(len(cells)):
         at_distance[abs(cells[j, 0] - row) + abs(cells[j, 1] - column)] += 1
@@ -232,10 +232,10 @@ def score_points(points: np.ndarray, archive: ArchiveArrays, k: int, taxicab: bo
     grid = grid_over(points, n + counts[0])
     most_members = n + min(capacity, counts[0] + n)
     most_newcomers = 1 + int(math.sqrt(most_members))
-    # population and archive, cell by cell; then who entered the archive since, in any order
+    # population and archive, cell by cell; then those that entered the archive since, in any order
     members = np.zeros((max(dimensions, 2), most_members + most_newcomers))  # points on a line get a second coordinate
-    ends = np.empty(grid.sides[0] * grid.sides[1] + 1, dtype=np.int64)  # a 0, and where in `members` each cell ends
-    places = np.empty(capacity, dtype=np.int64)  # where in `members` the archive's points are
+    ends = np.empty(grid.sides[0] * grid.sides[1] + 1, dtype=np.int64)  # a 0, then the end of each cell in `members`
+    places = np.empty(capacity, dtype=np.int64)  # of the archive's points in `members`
     size = in_cells = sort_into_cells(grid, points, archive.points, counts[0], members, ends, places)
     reach = even_reach(grid, (k + 1) / size)
     distances = np.empty(members.shape[1])
@@ -245,7 +245,7 @@ def score_points(points: np.ndarray, archive: ArchiveArrays, k: int, taxicab: bo
     for i in range(n):
         for axis in range(dimensions):
             point[axis] = points[i, axis]
-        # the point finds itself, too, at a distance of 0, which adds nothing to the sum
+        # the point also finds itself, at a distance of 0, which adds nothing to the sum
         wanted = min(k, n - 1 + counts[0]) + 1
         found = look_around(point, grid, members, ends, in_cells, size, wanted, reach, taxicab, distances)
         smallest(distances, found, wanted, ascending)
@@ -256,7 +256,7 @@ def score_points(points: np.ndarray, archive: ArchiveArrays, k: int, taxicab: bo
         if scores[i] > threshold:
             place = vacate(archive)
             if place < counts[0]:
-                members[0, places[place]] = np.nan  # which is near to nothing
+                members[0, places[place]] = np.nan  # near to nothing
             enter(archive, place, points[i], scores[i])
             threshold = threshold_of(archive)
             places[place] = size
@@ -269,7 +269,7 @@ def score_points(points: np.ndarray, archive: ArchiveArrays, k: int, taxicab: bo
 
 @kernel
 def threshold_of(archive: ArchiveArrays) -> float:
-    """A point enters the archive if it scores above this: anything while there is room, then the lowest in it."""
+    """The score that a point must exceed to enter: any while there is room, then the lowest in the archive."""
     size, capacity = archive.counts[0], len(archive.scores)
     if size < capacity:
         return -1.0
@@ -285,7 +285,7 @@ def vacate(archive: ArchiveArrays) -> int:
 
 @kernel
 def enter(archive: ArchiveArrays, place: int, point: np.ndarray, score: float) -> None:
-    """Let a point into the archive, at the place that `vacate` told."""
+    """Let a point into the archive, at the place that `vacate` returned."""
     points, scores, entry, heap, counts = archive
     for axis in range(len(point)):
         points[axis, place] = point[axis]
@@ -310,7 +310,7 @@ def enter(archive: ArchiveArrays, place: int, point: np.ndarray, score: float) -
 
 @kernel
 def _lower_child(archive: ArchiveArrays, node: int) -> int:
-    """The child of a node of the heap with the lower score, the older one on a tie; -1 where it has none."""
+    """The child of a node of the heap with the lower score, the older one on a tie; -1 if it has none."""
     _, scores, entry, heap, counts = archive
     left, right = 2 * node + 1, 2 * node + 2
     if right >= counts[0]:

@@ -1,14 +1,13 @@
-"""Selection and variation: how the next generation is bred (Section 3.2 and Table 1).
+"""Selection and variation: how the next generation is bred (Section 6 and Table 1 of the paper).
 
-The fittest few pass on unchanged (elitism). The rest of the places are filled in pairs: two parents, each the winner
-of a tournament; with some probability a single-point crossover of the two; and for each offspring, with some
-probability, one gene replaced by a new uniform value (mutation).
+The fittest few pass on unchanged (elitism). Pairs of offspring fill the other places: two parents, each the winner of a
+tournament; with some probability, a single-point crossover of the two; and for each offspring, with some probability,
+one gene replaced by a new uniform value (mutation).
 
-All draws come from `rng.random()`, a uniform value u in [0, 1): an index among n is int(u n), a value in [low, high] is
-low + (high - low) u. For each pair of offspring they are, in this order: as many indices as the tournament is large,
-for the first parent; the same for the second; one draw that decides on crossover and, where there is one, the cut;
-then for each of the two offspring one draw that decides on mutation and, where there is one, the gene and its value.
-"""
+All draws come from `rng.random()`, a uniform value u in [0, 1): an index among n is int(u n), a value in [low, high) is
+low + (high - low) u. For each pair of offspring the order is: the indices of the first parent's tournament; those of
+the second's; one draw that decides on crossover and, if it takes place, one for the cut; then, for each of the two
+offspring, one draw that decides on mutation and, if it takes place, one for the gene and one for its value."""
 
 from __future__ import annotations
 
@@ -66,7 +65,7 @@ def tournament(fitness: np.ndarray, size: int, rng: np.random.Generator) -> int:
 
 @kernel
 def crossover(first: np.ndarray, second: np.ndarray, rng: np.random.Generator) -> None:
-    """Swap what lies behind a cut that is uniform in 1..length-1, in place."""
+    """Swap, in place, the genes behind a cut that is drawn uniformly from 1..length-1."""
     cut = 1 + draw_index(rng, len(first) - 1)
     for gene in range(cut, len(first)):
         first[gene], second[gene] = second[gene], first[gene]
@@ -74,7 +73,7 @@ def crossover(first: np.ndarray, second: np.ndarray, rng: np.random.Generator) -
 
 @kernel
 def mutate(genome: np.ndarray, low: float, high: float, rng: np.random.Generator) -> None:
-    """Give one gene, drawn uniformly, a new uniform value, in place."""
+    """Give one gene, drawn uniformly, a new uniform value in [low, high), in place."""
     gene = draw_index(rng, len(genome))
     genome[gene] = draw_uniform(rng, low, high)
 
@@ -83,7 +82,7 @@ def mutate(genome: np.ndarray, low: float, high: float, rng: np.random.Generator
 def breed(
     genomes: np.ndarray, fitness: np.ndarray, rates: Breeding, rng: np.random.Generator, offspring: np.ndarray
 ) -> None:
-    """Put the next generation into `offspring`: the elites first, the fittest at the front, then the pairs."""
+    """Write the next generation into `offspring`: first the elites, the fittest in front, then the pairs."""
     is_elite = np.zeros(len(genomes), dtype=np.bool_)
     for place in range(rates.elites):
         fittest = -1
@@ -111,6 +110,6 @@ def copy_genomes(genomes: np.ndarray, into: np.ndarray) -> None:
 
 @kernel
 def _copy(genomes: np.ndarray, i: int, into: np.ndarray, place: int) -> None:
-    """Copy one genome, gene by gene: to copy rows as wholes takes numba seconds more to compile."""
+    """Copy one genome gene by gene: numba takes seconds longer to compile the copying of whole rows."""
     for gene in range(genomes.shape[1]):
         into[place, gene] = genomes[i, gene]

@@ -1,15 +1,14 @@
-"""The robot: a controller of 16 weights that walks the maze for a fixed number of steps.
+"""The robot: a controller of 16 weights that walks the maze for a fixed number of steps (Section 5 of the paper).
 
-At every step the robot reads its eight sensors s_1..s_8 (see `safe.maze`) once, where it stands, and forms
-two weighted sums (Section 3.1 of the paper):
+At every step the robot reads its eight sensors s_1..s_8 (see `safe.maze`) once, and forms two weighted sums:
 
     h = p_1 s_1 + ... + p_8 s_8            v = p_9 s_1 + ... + p_16 s_8
 
-It goes one cell right if h >= 0, otherwise left, and stays where that cell is wall or outside. Then, from
-the column where it now stands, it goes one cell down if v >= 0, otherwise up, likewise. It does not stop at the goal.
+It moves one cell right if h >= 0, otherwise left; if that cell is wall or outside, it stays. Then, from its new
+column, it moves one cell down if v >= 0, otherwise up, in the same way. It does not stop at the goal.
 
-The controller has no memory: where the robot goes next depends only on where it stands. A path that comes back
-to a cell therefore repeats from there for ever, and its end follows without walking on. This is exact.
+The controller has no memory: the robot's next cell depends only on the present one. Once a path returns to a cell
+it repeats from there for ever, so its end point follows without walking on. This is exact.
 """
 
 from __future__ import annotations
@@ -48,7 +47,7 @@ def path(maze: Maze | str, controller: np.ndarray, steps: int = STEPS) -> np.nda
     Raises
     ------
     ValueError
-        Where the controller has the wrong length, is not finite or not in [-1, 1], or steps is out of range.
+        If the controller does not hold 16 finite numbers in [-1, 1], or if steps is out of range.
 
     Examples
     --------
@@ -68,7 +67,7 @@ def path(maze: Maze | str, controller: np.ndarray, steps: int = STEPS) -> np.nda
 
 
 def endpoints(maze: Maze | str, controllers: np.ndarray, steps: int = STEPS) -> np.ndarray:
-    """Where each of n robots ends.
+    """The end points of n robots.
 
     Parameters
     ----------
@@ -103,15 +102,15 @@ def endpoints(maze: Maze | str, controllers: np.ndarray, steps: int = STEPS) -> 
 
 
 class WalkSpace(NamedTuple):
-    """What walks are worked out in, of no meaning between them."""
+    """Working memory of walks; its contents mean nothing between them."""
 
     trail: np.ndarray  # int16, (most cells of a walk, 2): row and column of the cells that the robot has stood on
     stood_at: np.ndarray  # int64, (height, width): the time when it last stood on a cell
-    clock: np.ndarray  # int64, (1,): the time, which goes on from walk to walk, so that nothing need be cleared
+    clock: np.ndarray  # int64, (1,): the time, which goes on from walk to walk, so nothing needs clearing
 
 
 def walk_space(shape: tuple[int, int], steps: int) -> WalkSpace:
-    """The space for walks of so many steps in a maze of this shape."""
+    """Working memory for walks of `steps` steps in a maze of this shape."""
     most_cells = min(steps, shape[0] * shape[1]) + 1
     return WalkSpace(
         trail=np.empty((most_cells, 2), dtype=np.int16),
@@ -127,10 +126,10 @@ def walk_space(shape: tuple[int, int], steps: int) -> WalkSpace:
 def walk(
     maze: MazeArrays, controller: np.ndarray, steps: int, trail: np.ndarray, stood_at: np.ndarray, clock: int
 ) -> tuple[int, int]:
-    """Walk until the steps are over or the robot is back on a cell it has stood on.
+    """Walk until the steps are over or the robot returns to a cell it has stood on.
 
-    The cells go into `trail`. Returns how many of them there are, and the index of the cell to which
-    the path has come back (the last cell where it has not).
+    The cells go into `trail`. Returns their number, and the index of the cell to which the path has returned
+    (of the last cell if it has not).
 
     A cell that holds less than `clock` in `stood_at` was last stood on in another walk.
     """
@@ -148,7 +147,7 @@ def walk(
         s5, s6, s7, s8 = sensors[r, c, 4], sensors[r, c, 5], sensors[r, c, 6], sensors[r, c, 7]
         h = p1 * s1 + p2 * s2 + p3 * s3 + p4 * s4 + p5 * s5 + p6 * s6 + p7 * s7 + p8 * s8
         v = p9 * s1 + p10 * s2 + p11 * s3 + p12 * s4 + p13 * s5 + p14 * s6 + p15 * s7 + p16 * s8
-        # Branches, not selects: the processor guesses the way and starts on the next step meanwhile (3 times faster).
+        # Branches, not selects: the processor predicts them and starts on the next step meanwhile (3 times faster).
         if h >= 0:
             if column + 1 < width and not walls[r, index(column + 1)]:
                 column += 1
@@ -165,7 +164,7 @@ def walk(
 
 @kernel
 def cell_at_step(step: int, length: int, loop_start: int) -> int:
-    """The index into the trail of a walk (see `walk`) of where the robot stands at a step."""
+    """The index into the trail of a walk (see `walk`) of the robot's cell at a step."""
     return step if step < length else loop_start + (step - loop_start) % (length - loop_start)
 
 

@@ -1,3 +1,3 @@
-"""The version of this package; results tell which one made them."""
+"""The version of this package, which is recorded with every result."""
 
 __version__ = "0.1.0"

@@ -1,18 +1,18 @@
-"""Addresses in the playground, the page of the book in which SAFE runs in the browser.
+"""Addresses in the playground, the page of the book that runs SAFE in the browser.
 
-An address is what follows the `#` of the page's address, `key=value&key=value`, and says all that the page shows::
+An address is the part of the page's URL behind the `#`, `key=value&key=value`, and describes all that the page shows::
 
-    view         watch a run, or drive a robot by its controller
-    maze         the name of one that comes with the package, or else the cells of any: HEIGHTxWIDTH/row,column of the
-                 start/row,column of the goal/walls, where the walls are bits, row by row, in base64url without padding
-    algorithm    its name in `safe.ALGORITHMS`, or else name:rating:objectives, where the rating is `none` or
-                 `genotypic`, and the objectives are `drawn`, or the weights a,b,a,b,... of each (none: random search)
-    seed         an integer, or several with commas, and behind a slash the spawn key; the run of an experiment has
-                 its digest and the number of the run
-    controller   the sixteen weights, with commas
-    ...          any of `safe.Parameters` by its name, where it departs from the paper's
+    view         `watch` a run, or `drive` a robot by its controller
+    maze         a packaged maze's name, or the cells of any maze: HEIGHTxWIDTH/row,column of the start/row,column of
+                 the goal/walls; the walls are bits, row by row, in base64url without padding
+    algorithm    its name in `safe.ALGORITHMS`, or name:rating:objectives; the rating is `none` or `genotypic`, the
+                 objectives are `drawn`, or the coefficients a,b,a,b,... of each (empty: random search)
+    seed         an integer or several, separated by commas, then perhaps a slash and the spawn key; a run of an
+                 experiment has the experiment's digest and the number of the run
+    controller   the sixteen weights, separated by commas
+    ...          any of `safe.Parameters` by its name, if it departs from the paper's
 
-Numbers are written such that they are read as the very same, and so a run that is opened there is the very same run.
+Numbers are written so that reading them gives exactly the same values: an address opens exactly the same run.
 """
 
 from __future__ import annotations
@@ -32,21 +32,21 @@ from safe.maze import Maze
 from safe.maze_files import is_packaged, load_maze
 from safe.robot import WEIGHTS
 
-READABLE = "!~*'(),:/"  # as encodeURIComponent leaves them, and what our values are made of
+READABLE = "!~*'(),:/"  # left as they are by encodeURIComponent, or used in our values
 _NUMBER = r"(?:0x[0-9a-fA-F]{1,64}|[0-9]{1,80})"
 _SEED = re.compile(rf"({_NUMBER}(?:,{_NUMBER})*)(?:/({_NUMBER}(?:,{_NUMBER})*))?")
-_LARGEST = 2**256 - 1  # number in a seed; the digest of an experiment has as many bits
-_POOL_SIZE = np.random.SeedSequence(0).pool_size  # the only one that the page knows
+_LARGEST = 2**256 - 1  # number in a seed; as large as the digest of an experiment
+_POOL_SIZE = np.random.SeedSequence(0).pool_size  # the only one that the page supports
 _RATINGS = {"none": "none", "genotypic novelty": "genotypic"}
 
 
 def run_address(experiment: Experiment, run: int) -> str:
-    """Where the playground shows one run of an experiment.
+    """The address at which the playground shows one run of an experiment.
 
     Raises
     ------
     ValueError
-        Where the run is not an integer of at least 0.
+        If the run is not a non-negative integer.
 
     Examples
     --------
@@ -67,19 +67,19 @@ def run_address(experiment: Experiment, run: int) -> str:
 
 
 def drive_address(maze: Maze | str, controller: np.ndarray | None = None) -> str:
-    """Where the playground lets one drive a robot in a maze, by a controller where one is given.
+    """The address at which the playground drives a robot in a maze, by this controller if one is given.
 
     Parameters
     ----------
     maze : Maze or str
         The maze, or its name.
     controller : array of float, shape (16,), optional
-        The weights p_1..p_16, each in [-1, 1], to begin with.
+        The weights p_1..p_16, each in [-1, 1], to start with.
 
     Raises
     ------
     ValueError
-        Where the controller has the wrong length, is not finite or not in [-1, 1].
+        If the controller does not hold 16 finite numbers in [-1, 1].
 
     Examples
     --------
@@ -95,13 +95,13 @@ def drive_address(maze: Maze | str, controller: np.ndarray | None = None) -> str
 
 
 def seed_text(seed: Seed) -> str:
-    """A seed as an address gives it.
+    """A seed as an address writes it.
 
     Raises
     ------
     ValueError
-        Where it is no seed, or one that the page cannot work with: of numbers of more than 256 bits, or with a pool of
-        another size than numpy's.
+        If the seed is not valid, or if the page does not support it: numbers of more than 256 bits, or a pool that
+        is not of numpy's usual size.
 
     Examples
     --------
@@ -117,12 +117,12 @@ def seed_text(seed: Seed) -> str:
 
 
 def read_seed(text: str) -> Seed:
-    """What `seed_text` wrote: an int or a tuple of them; a SeedSequence where there is a spawn key.
+    """The seed that `seed_text` wrote: an int or a tuple of ints, or with a spawn key a SeedSequence.
 
     Raises
     ------
     ValueError
-        Where the text is another.
+        If the text does not describe a seed.
 
     Examples
     --------
@@ -159,7 +159,7 @@ def _algorithm(algorithm: Algorithm) -> str:
     if algorithm == ALGORITHMS.get(algorithm.name):
         return algorithm.name
     objectives = "drawn" if algorithm.objectives is None else _numbers(np.ravel(algorithm.objectives))
-    name = algorithm.name.replace(":", " ")  # which parts what follows
+    name = algorithm.name.replace(":", " ")  # a colon separates the parts
     return f"{name}:{_RATINGS[algorithm.rating]}:{objectives}"
 
 

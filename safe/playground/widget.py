@@ -1,4 +1,4 @@
-"""The playground of the book as a widget of Jupyter: draw a maze, drive a robot, watch a run, and go on in Python."""
+"""The book's playground as a Jupyter widget: draw a maze, drive a robot, watch a run, and go on in Python."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ from safe.robot import WEIGHTS, path
 
 
 class _Shared(traitlets.TraitType):
-    """A trait that the kernel and the page know.
+    """A trait that the kernel and the page share.
 
-    `check` gives what is kept of a value, or refuses it with a ValueError; `to_page` and `from_page` translate.
+    `check` returns the value to keep, or raises a ValueError; `to_page` and `from_page` translate.
     """
 
     def __init__(self, default: object, check: Callable, to_page: Callable, from_page: Callable) -> None:
@@ -45,7 +45,7 @@ def _check_maze(value: object) -> Maze:
 
 
 def _read_maze(drawing: object) -> Maze:
-    """The maze of a drawing, by its name where it is one that comes with the package."""
+    """The maze of a drawing; a packaged maze has its name again."""
     maze = Maze.from_drawing(drawing)
     return next((packaged for packaged in packaged_mazes().values() if packaged == maze), maze)
 
@@ -77,27 +77,27 @@ def _read_run(value: object) -> Run | None:
 
 
 class Playground(anywidget.AnyWidget):
-    """The playground in a notebook. What the user changes in it can be read here, and what is set here is shown there.
+    """The playground in a notebook.
 
-    The parameters below are attributes, as is `result`: what came of the last run, a Run, or None before there is one.
-    A result that is set, here or by the page, also sets the controller. `observe` calls a function whenever one of
-    them changes.
+    The parameters below are attributes, as is `result`, the outcome of the last run (a Run, or None before the first).
+    They follow what the user does in the playground, and setting one of them updates the playground. Setting a result
+    also sets the controller. `observe` calls a function whenever one of them changes.
 
     Parameters
     ----------
     maze : Maze or str
         The maze, its name, the path of its file, or a drawing of two rows or more; read as a Maze.
     controller : array of float, shape (16,), optional
-        The weights p_1..p_16, each in [-1, 1], of the robot that is driven, all 0 by default; read as a tuple.
+        The weights p_1..p_16, each in [-1, 1], of the robot that is driven; all 0 by default, read as a tuple.
     seed : int, sequence of int, or numpy.random.SeedSequence
-        Where the randomness of runs starts from; the same as in `safe.evolve`.
+        The seed of the runs' random numbers, as in `safe.evolve`.
 
     Raises
     ------
     ImportError
-        Where anywidget is not installed.
+        If anywidget is not installed.
     ValueError
-        Where there is no such maze, controller or seed, or a result is no Run.
+        If a maze, controller, seed or result is not valid.
 
     Examples
     --------
@@ -133,7 +133,7 @@ class Playground(anywidget.AnyWidget):
             self.controller = self.result.controller
 
     def _repr_mimebundle_(self, **kwargs: object) -> tuple[dict, dict]:
-        """With a picture, for where there is no kernel: the maze and the robot's path, for a page and for print."""
+        """Add a picture of the maze and the robot's path, for pages without a kernel and for print."""
         data, metadata = super()._repr_mimebundle_(**kwargs)
         with plt.style.context(figures.STYLE):
             figure, _ = figures.plot_paths([[(self.maze, path(self.maze, self.controller), self.maze.name)]])
