@@ -1,12 +1,11 @@
-"""How the benchmarks measure, and what of it is kept.
+"""How the benchmarks measure, and which results they record.
 
 benchmarks/results.json holds, for each benchmark, its group, the seconds of one round, and in `extra_info` what was
 measured: most often the `generations` that one round covers, so that median / generations are seconds a generation.
 
-Seconds are those of the processor, so that other programs on the machine disturb little (of all threads together, where
-there are several); in the groups "paper", "first use" and "twin", where they are waited for, those of the clock on the
-wall.
-"""
+Seconds are those of the processor, so that other programs on the machine disturb little (of all threads together, if
+there are several); in the groups "paper", "first use" and "twin" they are those of the clock on the wall, since people
+wait."""
 
 import time
 from importlib.metadata import version
@@ -44,7 +43,7 @@ def measure(benchmark):
 
 @pytest.fixture
 def sized(request):
-    """A size, or a small one where benchmarks are only checked to work (--benchmark-disable)."""
+    """A size, or a small one if benchmarks are only checked to work (--benchmark-disable)."""
     is_check = request.config.getoption("benchmark_disable")
     return lambda size, check: min(size, check) if is_check else size
 
@@ -58,7 +57,7 @@ def pytest_collection_modifyitems(items):
 
 
 def pytest_benchmark_update_json(output_json):
-    """Keep what is measured and what it depends on: not where or by whom, and no digits that say nothing."""
+    """Record measurements and what they depend on, but not the place or person, nor meaningless digits."""
     machine = output_json["machine_info"]
     output_json["machine_info"] = {name: machine[name] for name in MACHINE}
     output_json["machine_info"]["cpu"] = {name: machine["cpu"].get(name) for name in ("brand_raw", "count")}

@@ -1,4 +1,4 @@
-"""The runs of `safe.evolve` by what one would write first with numba: compiled, but without a thought to cost.
+"""The runs of `safe.evolve` as a first version in numba would compute them: compiled, but without regard for speed.
 
 Every robot walks all its steps; a point's distances to all others are sorted; every objective function scores every
 solution. Random draws come in the same order, so a run is the same to the last bit, and the difference in time is what

@@ -1,4 +1,4 @@
-"""How long one waits for a first result: a new Python process, with nothing compiled before, and with what it kept."""
+"""The time to a first result: in a new Python process, without a cache of compiled functions and with one."""
 
 import os
 import subprocess
@@ -18,7 +18,7 @@ def cache_folder(tmp_path_factory):
 @pytest.mark.benchmark(timer=time.perf_counter)
 @pytest.mark.parametrize("stage", ["without compiled cache", "with compiled cache", "import safe"])
 def test_first_use(benchmark, measure, cache_folder, stage):
-    # where benchmarks are only checked, nothing is compiled for the sake of it
+    # if benchmarks are only checked, the usual cache will do
     environment = os.environ | ({"NUMBA_CACHE_DIR": str(cache_folder)} if benchmark.enabled else {})
     command = [sys.executable, "-c", "import safe" if stage == "import safe" else FIRST_RUN]
     once = stage == "without compiled cache"

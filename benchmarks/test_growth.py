@@ -1,4 +1,4 @@
-"""How the cost grows with the sizes that one may set: of the populations, archives, paths, mazes, k, and experiments.
+"""How the cost grows with the sizes that a user can set: populations, archives, paths, mazes, k, experiments.
 
 `kernel` names what is timed, as in the group "part", or a function of the package.
 """
@@ -88,7 +88,7 @@ def test_maze(measure_part, sized, part, walls, size):
 
 @pytest.mark.parametrize("size", [10, 100, 1000, 10_000, 100_000])
 def test_runs(measure, sized, size):
-    """Runs so short that what is timed is what surrounds them: seeds, threads, store, table."""
+    """Runs so short that the time is that of their surroundings: seeds, threads, store, table."""
     tiny = Parameters(population=10, objectives=10, generations=2, archive=10)
     experiment = Experiment("safe", "maze1", sized(size, check=10), parameters=tiny)
     safe.evolve("maze1", "safe", seed=0, parameters=tiny)  # compiles

@@ -1,6 +1,5 @@
-"""What the paper's ten experiments cost, with RUNS runs of each (500).
-
-And what the first of those runs cost by the straightforward version.
+"""The cost of the paper's ten experiments, with RUNS runs of each (500), and of their first runs in the
+straightforward version.
 """
 
 import os

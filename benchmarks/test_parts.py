@@ -1,4 +1,4 @@
-"""What the parts of a generation cost, and the whole of it."""
+"""The cost of a generation and of its parts."""
 
 import pytest
 

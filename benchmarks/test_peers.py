@@ -1,9 +1,8 @@
 """The same work done by others: the robot, the novelty of a generation, and whole runs.
 
-The peers are libraries and techniques that one would reach for instead; plain Python is the tests' oracle, written to
-be obvious and not to be fast. Where a peer does not do quite the same work, what it is spared or asked for in addition
-is said with it. In each group the seconds of a round divided by `points` * `generations` are those of one point.
-"""
+The peers are libraries and techniques that could be used instead; plain Python is the tests' oracle, written to be
+obvious rather than fast. If a peer does less or more than the same work, its docstring says so. In each group the
+seconds of a round divided by `points` * `generations` are those of one point."""
 
 import copy
 from collections.abc import Callable
@@ -67,7 +66,7 @@ def test_robot(measure, sized, method, walk, every, points):
 
 
 class Kind(NamedTuple):
-    """End points or objective functions: where they come from, and how the distance between two is measured."""
+    """End points or objective functions: their source, and the distance between two of them."""
 
     algorithm: str
     part: str  # of the workloads
@@ -124,7 +123,7 @@ def in_order(make_archive):
 
 
 def at_once(score):
-    """All points of a generation against the archive before it: a peer is spared the rule, and what follows from it."""
+    """All points of a generation against the archive before it: the peer need not follow the rule of admission."""
     return lambda kind, before, timed: (lambda: [score(kind, g) for g in timed], tuple)
 
 
@@ -149,7 +148,7 @@ def in_python(kind, generation):
 
 
 def add(archive, points):
-    """What pyribs does with a generation: novelty, all of it added, and the tree built anew."""
+    """A generation in pyribs: its novelty, then all points are added, and the tree is rebuilt."""
     archive.add(np.zeros((len(points), 1)), None, points)
 
 
@@ -160,7 +159,7 @@ def by_pyribs(compute):
     """
 
     def prepare(kind, before, timed):
-        from ribs.archives import ProximityArchive  # not above: what it loads would count as the paper's memory
+        from ribs.archives import ProximityArchive  # not above: its memory would count as the paper's
 
         archives = []
         for generation in timed:
@@ -178,7 +177,9 @@ def by_pyribs(compute):
 
 
 class Method(NamedTuple):
-    prepare: Callable  # (kind, generations before, generations timed) -> function, what makes its arguments
+    prepare: (
+        Callable  # (kind, generations before, generations timed) -> function, and a function that makes its arguments
+    )
     generations: int
     is_exact: bool = False  # does it give the novelty of the rule?
 

@@ -16,7 +16,7 @@ from tests.helpers.twin import TWINS, run_of, told
 
 @pytest.fixture(scope="module", params=[None, *TWINS], ids=lambda twin: "safe" if twin is None else None)
 def evolve(request):
-    """What makes a run, and what it is."""
+    """The arguments of a run, and its outcome."""
     if request.param is None:
         yield lambda *run: told(safe.evolve(*run)), "safe"
         return

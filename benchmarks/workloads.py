@@ -1,10 +1,10 @@
-"""The parts of a generation as workloads: what real runs hand to each part, recorded, and compiled replays of it.
+"""The parts of a generation as workloads: the recorded inputs of each part in real runs, and compiled replays of them.
 
-A part timed again and again on one generation comes out several times too fast: the processor learns its few thousand
-branches by heart. So a whole run is recorded, and one round of a benchmark takes the part through all of its
-generations in order, from the state (archives, random numbers) of that run.
+A part that is timed repeatedly on one generation seems several times too fast, because the processor memorises its few
+thousand branches. So a whole run is recorded, and each round of a benchmark takes the part through all generations in
+order, from the state (archives, random numbers) of that run.
 
-But for `straightforward`, the benchmarks know the package's compiled functions by this module alone.
+Apart from `straightforward`, only this module of the benchmarks knows the package's compiled functions.
 """
 
 from __future__ import annotations
@@ -35,7 +35,8 @@ SEED = 1
 
 
 class Recording(NamedTuple):
-    """What a run was in each of its generations: the first axis of every array. Empty where a run has none of it."""
+    """The generations of a run, along the first axis of every array; an array is empty if the run has no such
+    values."""
 
     genomes: np.ndarray
     endpoints: np.ndarray
@@ -46,7 +47,7 @@ class Recording(NamedTuple):
 
 
 class Workload(NamedTuple):
-    """A function to be timed, what makes its arguments anew for each round, and how many generations a round covers."""
+    """A function to be timed, a function that makes its arguments for each round, and the generations in a round."""
 
     function: Callable
     arguments: Callable[[], tuple]
@@ -54,7 +55,7 @@ class Workload(NamedTuple):
 
 
 def start(maze: Maze | str, algorithm: str, parameters: Parameters) -> tuple[State, Settings, np.random.Generator]:
-    """The beginning of a run that no success will end."""
+    """The start of a run that no success will end."""
     state, settings, rng = start_run(maze, algorithm, SEED, parameters)
     return state, settings._replace(success_distance=-1), rng
 
@@ -90,7 +91,7 @@ def workload(
         fresh_state, fresh_rng = copy.deepcopy((state, rng))
         return fresh_state, settings, fresh_rng, timed
 
-    if timed_with is None and part in OUTCOMES:  # is the replay the work that it is said to be?
+    if timed_with is None and part in OUTCOMES:  # does the replay do the work of the run?
         end, *others = arguments()
         PARTS[part](end, *others)
         np.testing.assert_array_equal(OUTCOMES[part](end), OUTCOMES[part](timed)[-1])
@@ -154,7 +155,7 @@ PARTS = {
     "all": whole_generation,
 }
 
-OUTCOMES = {  # what a part leaves behind, in a state and in every generation of a recording
+OUTCOMES = {  # the result of a part, in a state and in every generation of a recording
     "robot": lambda end: end.endpoints,
     "novelty": lambda end: end.components[..., NOVELTY, :],
     "fitness": lambda end: end.fitness,

@@ -1,7 +1,7 @@
-"""Execute the notebooks for the book: every one whose executed copy is missing or stale.
+"""Execute the book's notebooks whose executed copies are missing or stale.
 
     python book/execute.py                                  with the parameters of the book
-    python book/execute.py table2-success -p runs 100       one notebook, with parameters of your own
+    python book/execute.py table2-success -p runs 100       one notebook, with your own parameters
 
 A copy is written under another name and renamed when it is complete, so an interrupted execution leaves none behind.
 """
@@ -21,12 +21,12 @@ import papermill
 import safe
 from executed import EXECUTED, NOTEBOOKS, ROOT, STAMP, notebooks, requested_parameters, stamp, what_is_wrong
 
-STORE = "results.sqlite"  # of the notebooks
-SAMPLE = 5  # runs in it that are made again at the end
+STORE = "results.sqlite"  # the notebooks' default
+SAMPLE = 5  # runs in it that are repeated at the end
 
 
 def execute(notebook: Path, parameters: dict[str, object]) -> None:
-    """Execute a notebook with those of the parameters that it has."""
+    """Execute a notebook with those of these parameters that it declares."""
     declared = papermill.inspect_notebook(notebook)
     own = {name: value for name, value in parameters.items() if name in declared}
     departures = {name: value for name, value in own.items() if repr(value) != declared[name]["default"]}
@@ -37,7 +37,7 @@ def execute(notebook: Path, parameters: dict[str, object]) -> None:
     papermill.execute_notebook(
         notebook,
         unfinished,
-        departures,  # no cell of parameters is put in that says what the notebook says already
+        departures,  # papermill then adds no cell that only repeats the notebook's own values
         cwd=ROOT,
         progress_bar=False,
         stderr_file=sys.stderr if watched else None,
@@ -54,17 +54,17 @@ def execute(notebook: Path, parameters: dict[str, object]) -> None:
 
 
 def unfinished_copy(notebook: Path) -> Path:
-    """Where a notebook is executed before its copy takes its place."""
+    """The file that holds a notebook's copy until its execution is complete."""
     return EXECUTED / f".{notebook.name}"
 
 
 def is_progress_bar(output: nbformat.NotebookNode) -> bool:
-    """Is this what a progress bar writes? It moves by carriage returns, and ends with a bare new line."""
+    """Is this the output of a progress bar, which moves by carriage returns and ends with a bare new line?"""
     return output.get("name") == "stderr" and ("\r" in output.text or not output.text.strip())
 
 
 def _value(text: str) -> object:
-    """A parameter's value as papermill would read it: a number where it is one."""
+    """A parameter's value as papermill would read it: as a number if it is one."""
     for number in (int, float):
         with contextlib.suppress(ValueError):
             return number(text)
@@ -72,7 +72,9 @@ def _value(text: str) -> object:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Execute the notebooks of the book where they are stale.")
+    parser = argparse.ArgumentParser(
+        description="Execute the book's notebooks whose executed copies are missing or stale."
+    )
     parser.add_argument("names", nargs="*", metavar="notebook", help="name without folder and ending; default: all")
     parser.add_argument("-p", nargs=2, action="append", default=[], metavar=("NAME", "VALUE"), help="set a parameter")
     options = parser.parse_args()
@@ -99,15 +101,15 @@ def main() -> None:
         try:
             execute(notebook, parameters)
         except papermill.PapermillExecutionError as error:
-            sys.exit(f"{label}: {error.ename}: {error.evalue} (the whole of it is in {unfinished_copy(notebook)})")
+            sys.exit(f"{label}: {error.ename}: {error.evalue} (in full in {unfinished_copy(notebook)})")
         print(f"{label}: {time.perf_counter() - started:.1f} s", flush=True)
     store = ROOT / given.get("store", STORE)
     if not options.names and store.exists():
         try:
             same = safe.verify(store, SAMPLE)
         except ValueError as error:
-            sys.exit(f"the results are not to be trusted: {error}")
-        print(f"{len(same)} stored runs, drawn at random, were made again: they are the same", flush=True)
+            sys.exit(f"the stored results cannot be trusted: {error}")
+        print(f"{len(same)} stored runs, drawn at random, were repeated and gave the same results", flush=True)
 
 
 if __name__ == "__main__":

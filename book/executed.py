@@ -1,10 +1,9 @@
-"""Executed copies of the notebooks: how they are made and recognised as stale, and how the book takes them in.
+"""Executed copies of the notebooks: how the book recognises stale ones, and reads the others.
 
-Notebooks are committed without outputs. `book/execute.py` executes each into the folder `executed`, with a stamp in its
-metadata: the digests of the notebook, of the package and of the measurements, and the parameters. As a Sphinx
-extension, this module puts the executed copy in the place of the notebook when a page is read, so that links to the
-source still lead to the clean notebook, and stops the build where a copy is missing or stale.
-"""
+Notebooks are committed without outputs. `book/execute.py` executes each into the folder `executed`, and stamps the
+copy's metadata with the digests of the notebook, of the package and of the measurements, and with the parameters. As a
+Sphinx extension, this module substitutes the executed copy when Sphinx reads a notebook, so that links to the source
+still lead to the clean notebook. It stops the build if a copy is missing or stale."""
 
 from __future__ import annotations
 
@@ -24,7 +23,7 @@ MEASUREMENTS = ROOT / "benchmarks" / "results.json"
 STAMP = "executed_from"  # key in the metadata of an executed copy
 LEFT_OUT = (
     "text/csv",  # for book/tables.py alone
-    "application/vnd.jupyter.widget-view+json",  # needs a kernel, and scripts from elsewhere; a picture comes with it
+    "application/vnd.jupyter.widget-view+json",  # needs a kernel, and scripts from elsewhere; there is also a picture
 )
 
 
@@ -42,7 +41,7 @@ def requested_parameters() -> dict[str, int]:
 
 
 def stamp(notebook: Path, parameters: dict[str, object]) -> dict[str, object]:
-    """What an execution of a notebook with these parameters depends on: not on what only runs in a browser."""
+    """All that the execution of a notebook with these parameters depends on, so not the code that browsers run."""
     package = hashlib.sha256()
     for file in sorted((ROOT / "safe").rglob("*")):
         if file.is_file() and not {"__pycache__", "javascript"} & set(file.relative_to(ROOT).parts):
@@ -56,9 +55,9 @@ def stamp(notebook: Path, parameters: dict[str, object]) -> dict[str, object]:
 
 
 def what_is_wrong(notebook: Path, requested: dict[str, object]) -> str | None:
-    """Why the executed copy of a notebook cannot stand for it; None where it can.
+    """Why the executed copy of a notebook must not be used; None if it may.
 
-    A copy was executed with those of the requested parameters that the notebook has.
+    A copy was executed with those of the requested parameters that the notebook declares.
     """
     copy = EXECUTED / notebook.name
     if not copy.exists():
@@ -73,9 +72,9 @@ def what_is_wrong(notebook: Path, requested: dict[str, object]) -> str | None:
 
 
 def collect_numbers() -> dict[str, str]:
-    """What notebooks hand on to the prose of the book: the JSON shown by their cells tagged `numbers`.
+    """The numbers that notebooks export to the prose of the book: the JSON shown by their cells tagged `numbers`.
 
-    Fractions are given to three digits; what there is none of is a dash.
+    Fractions have three digits, and a dash stands for a missing number.
     """
     numbers = {}
     for notebook in notebooks():
@@ -84,7 +83,8 @@ def collect_numbers() -> dict[str, str]:
                 for output in cell["outputs"]:
                     found = output["data"]["application/json"]
                     if twice := numbers.keys() & found.keys():
-                        raise ExtensionError(f"{notebook.name} hands on again: {', '.join(sorted(twice))}")
+                        names = ", ".join(sorted(twice))
+                        raise ExtensionError(f"{notebook.name} must export numbers by new names; got {names} again")
                     numbers |= {name: _in_words(value) for name, value in found.items()}
     return numbers
 

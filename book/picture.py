@@ -1,4 +1,4 @@
-"""Draw book/_static/robot-path, the picture of the README and of the book's first page, for print too: make picture."""
+"""Draw book/_static/robot-path, the picture of the README and of the book's first page, as SVG and PDF."""
 
 from pathlib import Path
 

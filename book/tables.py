@@ -1,4 +1,4 @@
-"""Tables of results as tables of the book: captioned, numbered, and to be downloaded as CSV.
+"""Tables of results as tables of the book: captioned, numbered, and available as CSV.
 
 A notebook cell whose metadata holds `table: {name, caption, stub, class}` shows one table, which carries a CSV copy of
 itself. Here that CSV becomes a table of the document, with `stub` columns of headings (1 by default), and with a class
@@ -73,7 +73,7 @@ class ResultTables(SphinxTransform):
 
 
 class LinkedTables(SphinxPostTransform):
-    """On the page a table has its links to the playground, in a last column of its own or in the column so headed."""
+    """On the page a table gets its links to the playground, in the column with their heading or in a new last one."""
 
     default_priority = 700
     formats = ("html",)
@@ -104,7 +104,7 @@ class LinkedTables(SphinxPostTransform):
 
 
 class PrintedTables(SphinxPostTransform):
-    """In print a table breaks between pages, its columns are as wide as what they hold, and nothing is downloaded."""
+    """In print a table breaks between pages, its columns are as wide as their contents, and has no download."""
 
     default_priority = 700
     formats = ("latex",)

@@ -1,4 +1,4 @@
-"""What the theme puts on a page: buttons that lead to the repository once there is one, and nothing from a CDN."""
+"""Adjustments of the theme: buttons that lead to the repository, if there is one, and nothing from a CDN."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ LAUNCH = {"binderhub_url": "https://mybinder.org", "colab_url": "https://colab.r
 
 
 def _set_buttons(app: Sphinx, config) -> None:
-    """Buttons to open a notebook elsewhere and to edit a page hang on one setting, the repository's address."""
+    """One setting, the repository's address, decides whether pages have buttons to launch, view and edit them."""
     options = config.html_theme_options
     has_repository = bool(options.get("repository_url"))
     options["use_repository_button"] = options["use_edit_page_button"] = has_repository
@@ -20,7 +20,7 @@ def _set_buttons(app: Sphinx, config) -> None:
 
 
 def _remove_thebe(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
-    """Jupyter Book prepares every page to load thebe from a CDN, and declares its address twice; no page uses it."""
+    """Remove the scripts with which Jupyter Book would load thebe from a CDN; no page uses it."""
 
     def is_thebe(script) -> bool:
         return "THEBE_JS_URL" in (script.attributes.get("body") or "") or "sphinx-thebe" in (script.filename or "")
@@ -29,7 +29,7 @@ def _remove_thebe(app: Sphinx, pagename: str, templatename: str, context: dict, 
 
 
 def _remove_address(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
-    """While nobody has said where the book will stand (`ogp_site_url`), a page cannot say what its address is."""
+    """Without the book's address (`ogp_site_url`), no page can state its own."""
     if not app.config.ogp_site_url and "metatags" in context:
         context["metatags"] = re.sub(r'<meta property="og:url"[^>]*>\s*', "", context["metatags"])
 
