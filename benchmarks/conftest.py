@@ -5,7 +5,8 @@ measured: most often the `generations` that one round covers, so that median / g
 
 Seconds are those of the processor, so that other programs on the machine disturb little (of all threads together, if
 there are several); in the groups "paper", "first use" and "twin" they are those of the clock on the wall, since people
-wait."""
+wait.
+"""
 
 import time
 from importlib.metadata import version

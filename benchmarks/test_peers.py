@@ -2,7 +2,8 @@
 
 The peers are libraries and techniques that could be used instead; plain Python is the tests' oracle, written to be
 obvious rather than fast. If a peer does less or more than the same work, its docstring says so. In each group the
-seconds of a round divided by `points` * `generations` are those of one point."""
+seconds of a round divided by `points` * `generations` are those of one point.
+"""
 
 import copy
 from collections.abc import Callable

@@ -36,7 +36,8 @@ SEED = 1
 
 class Recording(NamedTuple):
     """The generations of a run, along the first axis of every array; an array is empty if the run has no such
-    values."""
+    values.
+    """
 
     genomes: np.ndarray
     endpoints: np.ndarray

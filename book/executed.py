@@ -3,7 +3,8 @@
 Notebooks are committed without outputs. `book/execute.py` executes each into the folder `executed`, and stamps the
 copy's metadata with the digests of the notebook, of the package and of the measurements, and with the parameters. As a
 Sphinx extension, this module substitutes the executed copy when Sphinx reads a notebook, so that links to the source
-still lead to the clean notebook. It stops the build if a copy is missing or stale."""
+still lead to the clean notebook. It stops the build if a copy is missing or stale.
+"""
 
 from __future__ import annotations
 

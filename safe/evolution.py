@@ -19,7 +19,8 @@ genes, likewise; then, generation by generation, the breeding of the solutions a
 the draws of a breeding see `safe.operators`). Random search draws the genes of every generation as those of the first.
 
 The loop exists once. Python steps through it (`generations`), to watch and to teach, or compiled code runs it to its
-end (`evolve`). Both call `advance`, and give the same run, bit for bit."""
+end (`evolve`). Both call `advance`, and give the same run, bit for bit.
+"""
 
 from __future__ import annotations
 

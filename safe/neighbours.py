@@ -3,7 +3,8 @@
 Points are sorted into the cells of a grid over their first two coordinates. A search around a point reaches as far as
 its nearest neighbours would lie if all points were spread evenly, looks only into the cells within that reach, and
 extends it if it found too few. Its cost is about proportional to what it finds, and it gives exactly the distances that
-measuring all points would give. Euclidean distances stay squared, which leaves their order unchanged."""
+measuring all points would give. Euclidean distances stay squared, which leaves their order unchanged.
+"""
 
 from __future__ import annotations
 

@@ -7,7 +7,8 @@ one gene replaced by a new uniform value (mutation).
 All draws come from `rng.random()`, a uniform value u in [0, 1): an index among n is int(u n), a value in [low, high) is
 low + (high - low) u. For each pair of offspring the order is: the indices of the first parent's tournament; those of
 the second's; one draw that decides on crossover and, if it takes place, one for the cut; then, for each of the two
-offspring, one draw that decides on mutation and, if it takes place, one for the gene and one for its value."""
+offspring, one draw that decides on mutation and, if it takes place, one for the gene and one for its value.
+"""
 
 from __future__ import annotations
 
