@@ -1,5 +1,3 @@
-import hashlib
-import os
 import pickle
 
 import numpy as np
@@ -8,42 +6,8 @@ from hypothesis import given
 
 from safe import Maze, load_maze
 from safe.maze import SENSORS, ways_to_goal
-from safe.maze_files import load_mazes, maze_names, parse_maze
 from tests.conftest import mazes
 from tests.helpers import oracle
-
-DIGESTS = {  # of 100 lines of 100 characters: 0 open, 1 wall, 2 start, 3 goal
-    "maze1": "6d6e7a511392fc8b9bc2c6ef9c0173abe4c5dc610cfd83a3dd3b939a4ccefcfc",
-    "maze2": "f87e03aac30a4046da93e033a1adb64a6df2f29cee7dab8548d6b08790f8ede5",
-}
-
-
-@pytest.mark.parametrize("name", DIGESTS)
-def test_the_papers_mazes_cell_by_cell(name):
-    digits = load_maze(name).drawing("0123")
-    assert hashlib.sha256(digits.encode()).hexdigest() == DIGESTS[name]
-
-
-def test_the_papers_mazes_are_the_ones_that_come_along():
-    assert maze_names() == sorted(DIGESTS)
-
-
-@given(mazes())
-def test_a_drawing_gives_the_maze_back(maze):
-    assert Maze.from_drawing(maze.drawing()) == maze
-    assert parse_maze(maze.drawing("0123")) == maze
-
-
-def test_a_list_and_a_drawing_give_the_same_maze(tmp_path):
-    text = "# three walls\nsize 4,5\nstart 0,0\ngoal 3,4\nwall 0,1 2,3  # a diagonal\nwall 3,0 3,1\nwall 1,0 1,0\n"
-    drawing = "S#...\n#.#..\n...#.\n##..G"
-    with pytest.raises(ValueError, match="goal must be reachable"):
-        parse_maze(text)
-    text, drawing = text.replace("wall 1,0 1,0\n", ""), drawing.replace("#.#..", "..#..")
-    (tmp_path / "m.txt").write_text(text)
-    (tmp_path / "d.txt").write_text(drawing)
-    assert load_maze(tmp_path / "m.txt") == load_maze(str(tmp_path / "d.txt")) == Maze.from_drawing(drawing)
-    assert load_maze(tmp_path / "m.txt").name == "m"
 
 
 def test_a_maze_is_its_cells_and_not_its_name():
@@ -119,52 +83,6 @@ def test_sensors_are_those_of_the_oracle_in_every_cell(maze):
         assert maze.sensors[row, column].tolist() == list(expected.values())
 
 
-BAD_DRAWINGS = [
-    ("", "at least one row; got none"),
-    ("S..\n..", "rectangle; got 2 cells wide in row 2, 3 in row 1"),
-    ("S.?G", r"only . 0 # 1 S 2 G 3; got '\?' in row 1"),
-    ("S...", "exactly one goal; got 0"),
-    ("...G", "exactly one start; got 0"),
-    ("S.SG", "exactly one start; got 2"),
-    ("S#G", r"goal must be reachable from the start \(0, 0\) through open cells; got \(0, 2\)"),
-    ("S#\n#G", "goal must be reachable"),
-]
-
-
-@pytest.mark.parametrize(("text", "complaint"), BAD_DRAWINGS)
-def test_bad_drawings(text, complaint):
-    with pytest.raises(ValueError, match=complaint):
-        Maze.from_drawing(text)
-
-
-GOOD = "size 3,3\nstart 0,0\ngoal 2,2\n"
-BAD_LISTS = [
-    (GOOD.replace("goal 2,2\n", ""), "must give the goal; got none"),
-    (GOOD.replace("start 0,0\n", ""), "must give the start; got none"),
-    (GOOD + "size 3,3", "size must be given once; got it again in line 4"),
-    (GOOD + "door 1,1", "must begin with size, start, goal or wall; got 'door' in line 4"),
-    (GOOD + "wall 1,1", "wall must be followed by row,column row,column; got something else in line 4"),
-    (GOOD + "wall 1,1 1,x", "wall must be followed by row,column row,column; got '1,x' in line 4"),
-    (GOOD + "wall 0,1 -1,1", "got '-1,1' in line 4"),
-    (GOOD + "wall 1,1 1,3", "wall must lie within the 3 by 3 cells; got 1,3 in line 4"),
-    (GOOD + "wall 0,1 2,2", "wall must be horizontal, vertical or diagonal; got something else in line 4"),
-    (GOOD + "wall 0,0 0,1", r"start must be an open cell; got \(0, 0\), which is wall"),
-    (GOOD + "wall 2,2 2,2", r"goal must be an open cell; got \(2, 2\), which is wall"),
-    (GOOD + "wall 0,1 2,1", "goal must be reachable"),
-    (GOOD.replace("2,2", "0,0"), "goal must differ from the start"),
-    (GOOD.replace("2,2", "3,0"), r"goal must be a \(row, column\) within the 3 by 3 cells; got \(3, 0\)"),
-    (GOOD.replace("3,3", "0,3"), "size must be 1 to 2048 cells a side; got 0,3"),
-    (GOOD.replace("3,3", "9999,9999"), "size must be 1 to 2048 cells a side"),
-    (GOOD.replace("3,3", "9999999999999,3"), "size must be followed by height,width"),
-]
-
-
-@pytest.mark.parametrize(("text", "complaint"), BAD_LISTS)
-def test_bad_lists(text, complaint):
-    with pytest.raises(ValueError, match=complaint):
-        parse_maze(text)
-
-
 @pytest.mark.parametrize(
     ("walls", "start", "goal", "complaint"),
     [
@@ -183,43 +101,10 @@ def test_bad_mazes(walls, start, goal, complaint):
         Maze(walls, start, goal)
 
 
-@pytest.mark.parametrize("name", ["maze3", "", "no/such/file", ".", "a\0b", 7, None])
-def test_bad_names(name):
-    with pytest.raises(ValueError, match="maze must be"):
-        load_maze(name)
-
-
-@pytest.mark.parametrize("text", [None, 7, b"S.G", ["S.G"]])
-def test_a_maze_from_what_is_no_text(text):
-    for parse in (Maze.from_drawing, parse_maze):
-        with pytest.raises(ValueError, match="text must be a str; got"):
-            parse(text)
-
-
 @pytest.mark.parametrize("name", ["", "a\nb", "\udcff", None, 7])
 def test_a_maze_whose_name_no_store_or_page_could_hold(name):
     with pytest.raises(ValueError, match="name must be a text of printable characters; got"):
         Maze([[0, 0]], (0, 0), (0, 1), name)
-
-
-@pytest.mark.parametrize("line", ["x" * 999, "wall 1,1 " + "x" * 999])
-def test_a_long_line_of_a_maze_file_makes_no_long_message(line):
-    with pytest.raises(ValueError, match="must be") as refused:
-        parse_maze(GOOD + line)
-    assert len(str(refused.value)) < 200
-
-
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="a pipe has a name only on Unix")
-def test_a_pipe_is_not_waited_for(tmp_path):
-    os.mkfifo(tmp_path / "pipe")
-    with pytest.raises(ValueError, match=r"the path of a maze file; got .* \(not a file\)"):
-        load_maze(tmp_path / "pipe")
-
-
-def test_a_file_that_is_no_text(tmp_path):
-    (tmp_path / "noise").write_bytes(bytes(range(128, 256)))
-    with pytest.raises(ValueError, match=r"maze must be one of 'maze1', 'maze2' or the path .* \(not a text file\)"):
-        load_maze(tmp_path / "noise")
 
 
 @given(mazes())
@@ -233,12 +118,6 @@ def test_the_way_to_the_goal_is_one_cell_longer_than_from_the_best_neighbour(maz
     nearest = np.where(beside < 0, ways.size, beside).min(axis=0)
     assert (nearest[ways > 0] + 1 == ways[ways > 0]).all()
     assert (beside.max(axis=0)[(ways < 0) & ~maze.walls] < 0).all()  # what is cut off has no neighbour that is not
-
-
-@pytest.mark.parametrize("names", ["", "  ", None, 3])
-def test_no_mazes_at_all(names):
-    with pytest.raises(ValueError, match="maze must be one or more mazes, separated by blanks; got"):
-        load_mazes(names)
 
 
 def test_equal_mazes_are_one_key():

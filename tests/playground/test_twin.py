@@ -17,7 +17,7 @@ from safe.novelty import METRICS
 from tests.conftest import controllers, mazes
 from tests.helpers import fuzz, golden, record
 from tests.helpers.twin import TWINS, in_node, needs_node, run_of, told
-from tests.test_maze import BAD_DRAWINGS, BAD_LISTS
+from tests.test_maze_files import BAD_DRAWINGS, BAD_LISTS
 from tests.test_novelty import generations_of_points
 from tests.test_robot import reference_endpoints
 
