@@ -125,7 +125,7 @@ class Maze:
     def drawing(self, symbols: str = ".#SG") -> str:
         """The maze as `from_drawing` reads it; `symbols` are those for open, wall, start and goal."""
         cells = self.walls.astype(int)
-        cells[self.start], cells[self.goal] = 2, 3
+        cells[self.start], cells[self.goal] = 2, 3  # their places in `symbols`
         return "\n".join("".join(symbols[cell] for cell in row) for row in cells)
 
     @property
