@@ -1,8 +1,8 @@
-"""Whole runs, kept so that a change that alters any of them is noticed.
+"""Whole runs, recorded so that the tests notice a change that alters any of them.
 
-    python -m tests.helpers.golden        makes tests/data/golden_runs.json anew
+    python -m tests.helpers.golden        records tests/data/golden_runs.json
 
-Make it anew only together with a higher `safe.evolution.RULES`: results of before are then not mixed with new ones.
+Record them again only together with a higher `safe.evolution.RULES`, so that earlier results are not mixed with new ones.
 """
 
 import json
@@ -28,7 +28,7 @@ def golden_runs():
 
 
 def outcome(algorithm, maze, seed):
-    """A run as JSON gives it back."""
+    """A run as it returns from JSON."""
     return json.loads(json.dumps(asdict(safe.evolve(maze, algorithm, seed))))
 
 

@@ -18,7 +18,7 @@ def is_free(drawing, row, column):
 
 
 def look(drawing, row, column, down, right):
-    """Cells up to and including the first wall, or else up to the edge."""
+    """The number of cells up to and including the first wall or, without a wall, up to the edge."""
     cells = 0
     while True:
         row, column = row + down, column + right
@@ -81,7 +81,7 @@ class Archive:
         if len(self.members) >= self.capacity:
             if not self.members:
                 return
-            lowest = min(self.members)  # the lowest score, and of equal ones the smallest entry
+            lowest = min(self.members)  # the lowest score and, on a tie, the earliest entry
             if not score > lowest[0]:
                 return
             self.members.remove(lowest)
