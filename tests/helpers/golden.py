@@ -2,7 +2,7 @@
 
     python -m tests.helpers.golden        records tests/data/golden_runs.json
 
-Record them again only together with a higher `safe.evolution.RULES`, so that earlier results are not mixed with new ones.
+Record them again only with a higher `safe.evolution.RULES`, so that earlier results are not mixed with new ones.
 """
 
 import json
