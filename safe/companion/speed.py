@@ -193,7 +193,7 @@ def plot_parts(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
             axes.barh([plain(name) for name in rows.index], rows[part], left=left, label=part, height=0.6)
             left += rows[part].to_numpy()
         axes.set(title=plain(maze), xlabel="microseconds a generation")
-    legend_below(figure, grid[0, 0])
+    legend_below(figure)
     return figure, grid[0]
 
 

@@ -34,11 +34,10 @@ _WEIGHED = dict(zip(COEFFICIENTS, COMPONENTS, strict=True)) | dict(
 
 
 def no_paper(experiment: Experiment) -> pd.DataFrame:
-    """What a paper reports that reports nothing: a table without rows.
+    """The numbers that a paper reports of an experiment, if there is no paper: a table without rows.
 
-    Such a function returns, for an experiment, a table with columns mean, sd and n. Its rows are quantities:
-    "successes", "generations to success", and a, b, p1..p16 for evolved values. `safe.companion.paper.reported`
-    gives what the paper on SAFE reports.
+    A function for a paper, such as `safe.companion.paper.reported`, returns a row for each quantity ("successes",
+    "generations to success", and a, b, p1..p16 for evolved values), with columns mean (or the count), sd and n.
     """
     return pd.DataFrame(columns=["mean", "sd", "n"], dtype=float)
 
@@ -46,7 +45,7 @@ def no_paper(experiment: Experiment) -> pd.DataFrame:
 def pairs(results: Iterable[Experiment], names: Sequence[tuple[str, str]]) -> list[Pair]:
     """Pairs of experiments on the same maze, by the names of their algorithms: maze by maze, in the order of names.
 
-    If several experiments bear a name on one maze, each of them is paired.
+    If several experiments on one maze share a name, each of them is paired.
 
     Examples
     --------

@@ -83,7 +83,7 @@ def plot_paths(rows: Sequence[Sequence[tuple[Maze, np.ndarray | None, str]]]) ->
             if path is not None:
                 draw_path(axes, path)
             axes.set_title(plain(title))
-    legend_below(figure, grid[0, 0])
+    legend_below(figure)
     return figure, grid
 
 

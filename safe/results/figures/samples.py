@@ -29,10 +29,10 @@ def plot_success(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
     -------
     Figure, array of Axes of shape (mazes,)
     """
-    mazes = table.index.unique("maze")
+    mazes, algorithms = table.index.unique("maze"), table.index.unique("algorithm")
     figure, grid = plt.subplots(1, len(mazes), figsize=(4.2 * len(mazes), 3.2), squeeze=False, sharey=True)
     for axes, maze in zip(grid[0], mazes, strict=True):
-        rows = table.loc[maze][::-1]
+        rows = table.loc[maze].reindex(algorithms)[::-1]
         rate = rows.successes / rows.runs
         places = np.arange(len(rows))
         error = np.array([rate - rows.low, rows.high - rate]).clip(0)  # rounding may put an end beyond the rate
@@ -43,7 +43,7 @@ def plot_success(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
         axes.set_ylim(-0.6, len(rows) - 0.4)
         axes.set_xlim(left=min(0, axes.get_xlim()[0]))
         axes.grid(axis="x", alpha=0.3)
-    legend_below(figure, grid[0, 0])
+    legend_below(figure)
     return figure, grid[0]
 
 
@@ -60,7 +60,7 @@ def plot_success_curves(results: Mapping[Experiment, pd.DataFrame]) -> tuple[Fig
     Figure, array of Axes of shape (mazes,)
     """
     labelled = list(zip(labels(results), results.items(), strict=True))
-    mazes = list(dict.fromkeys(maze for (maze, _), _ in labelled))
+    mazes, algorithms = (list(dict.fromkeys(names)) for names in zip(*labels(results), strict=True))
     figure, grid = plt.subplots(1, len(mazes), figsize=(4.4 * len(mazes), 3.6), squeeze=False)
     for axes, maze in zip(grid[0], mazes, strict=True):
         for (of_maze, algorithm), (experiment, runs) in labelled:
@@ -68,11 +68,14 @@ def plot_success_curves(results: Mapping[Experiment, pd.DataFrame]) -> tuple[Fig
                 curve = success_curve(runs)
                 steps = [0, *curve.generation, experiment.parameters.generations]
                 share, low, high = ([0, *curve[name], [0, *curve[name]][-1]] for name in ("share", "low", "high"))
-                axes.step(steps, 100 * np.array(share), where="post", label=plain(algorithm))
-                axes.fill_between(steps, 100 * np.array(low), 100 * np.array(high), step="post", alpha=0.2)
+                colour = f"C{algorithms.index(algorithm)}"
+                axes.step(steps, 100 * np.array(share), where="post", color=colour, label=plain(algorithm))
+                axes.fill_between(
+                    steps, 100 * np.array(low), 100 * np.array(high), step="post", facecolor=colour, alpha=0.2
+                )
         axes.set(title=plain(maze), xlabel="generation", ylabel="runs that have succeeded, %", ylim=(0, None))
         axes.set_xlim(0, max(experiment.parameters.generations for experiment in results))
-    legend_below(figure, grid[0, 0])
+    legend_below(figure)
     return figure, grid[0]
 
 
@@ -97,7 +100,7 @@ def plot_coefficients(results: Mapping[Experiment, pd.DataFrame], paper: Paper =
         (a, a_sd), (b, b_sd) = paper(experiment).reindex(COEFFICIENTS)[["mean", "sd"]].to_numpy()
         axes.errorbar(a, b, xerr=a_sd, yerr=b_sd, fmt="x", capsize=4, color=GOAL, label="in the paper, mean and sd")
         axes.set(title=plain(label), xlabel="a (closeness)", ylabel="b (novelty)", xlim=(-0.02, 1.05))
-    legend_below(figure, grid[0, 0])
+    legend_below(figure)
     return figure, grid[0]
 
 
@@ -126,5 +129,5 @@ def plot_weights(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
         axes.axvline(0, color=FAINT, linewidth=0.8, zorder=0)
         names = [f"{item}: {weighs}" for item, weighs in rows.index]
         axes.set(title=plain(experiment), xlabel="weight", yticks=places, yticklabels=names, xlim=(-1.3, 1.3))
-    legend_below(figure, grid[0, 0])
+    legend_below(figure)
     return figure, grid[0]

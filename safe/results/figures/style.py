@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import matplotlib.pyplot as plt
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 STYLE = Path(__file__).with_name("figures.mplstyle")
@@ -29,7 +28,10 @@ def plain(name: str) -> str:
     return (" " + name if name.startswith("_") else name).replace("$", r"\$")
 
 
-def legend_below(figure: Figure, axes: Axes) -> None:
-    """One legend for all panels, that of the first."""
-    handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+def legend_below(figure: Figure) -> None:
+    """One legend for all panels, each label once."""
+    handles: dict = {}
+    for axes in figure.axes:
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+            handles.setdefault(label, handle)
+    figure.legend(handles.values(), handles, loc="outside lower center", ncols=len(handles))
