@@ -36,7 +36,7 @@ _NAMES = {
 
 @dataclass(frozen=True)
 class Claim:
-    """A claim with all that leads to its verdict, save the other claims of its family."""
+    """A claim with all that leads to its verdict, except the other claims of its family."""
 
     claim: str  # a short name
     source: str  # where in the paper
@@ -67,10 +67,11 @@ def all_claims(results: Results) -> Iterator[Claim]:
     yield from _untestable()
 
 
-def evidence(*parts: Experiment, runs: int) -> str:
+def evidence(parts: Results) -> str:
     """Experiments that differ in their seeds alone, in words."""
-    seeds = ", ".join(str(experiment.seed) for experiment in parts)
-    return f"{parts[0].algorithm.name} on {parts[0].maze.name}: {runs} runs, seed {seeds}"
+    first = next(iter(parts))
+    runs, seeds = sum(map(len, parts.values())), ", ".join(str(experiment.seed) for experiment in parts)
+    return f"{first.algorithm.name} on {first.maze.name}: {runs} runs, seed {seeds}"
 
 
 def successes(results: Results) -> Iterator[Claim]:
@@ -85,7 +86,7 @@ def successes(results: Results) -> Iterator[Claim]:
             family=SUCCESSES,
             paper=formats.count(row.paper_successes, row.paper_runs),
             here=formats.count(row.successes, row.runs),
-            evidence=evidence(experiment, runs=len(runs)),
+            evidence=evidence({experiment: runs}),
             test="Fisher, Newcombe",
             difference=row.difference,
             low=row.difference_low,
@@ -109,7 +110,7 @@ def generations(results: Results) -> Iterator[Claim]:
                 source="Table 2",
                 statement=f"{_capital(_NAMES[algorithm])} on {maze}",
                 family=GENERATIONS,
-                evidence=evidence(experiment, runs=len(runs)),
+                evidence=evidence({experiment: runs}),
                 digits=0,
             )
 
@@ -126,7 +127,7 @@ def _evolved(results: Results) -> Iterator[Claim]:
                 source="text" if item in COEFFICIENTS else "Table 3",
                 statement=f"{item} on {maze}, the weight of {weighs}",
                 family=EVOLVED,
-                evidence=evidence(experiment, runs=len(runs)),
+                evidence=evidence({experiment: runs}),
                 digits=2,
             )
 
@@ -183,7 +184,7 @@ def _pair(
         family=COMPARISONS,
         paper=" against ".join(formats.count(paper["mean"], paper["n"]) for paper in papers),
         here=" against ".join(formats.count(*counted) for counted in counts),
-        evidence="; ".join(evidence(experiment, runs=len(results[experiment])) for experiment in both),
+        evidence="; ".join(evidence({experiment: results[experiment]}) for experiment in both),
         test="Fisher, Newcombe",
         direction=direction,
         **asdict(compare_rates(*counts[0], *counts[1])),
@@ -205,7 +206,7 @@ def _deceptions(results: Results) -> Iterator[Claim]:
             source="Figure 2",
             statement=f"In most runs the standard algorithm is deceived on {maze.name}: its best robot ends less "
             "than half as far from the goal as it starts, with more than 90 % of the way still to go",
-            evidence=evidence(experiment, runs=len(runs)),
+            evidence=evidence({experiment: runs}),
         )
 
 
@@ -221,7 +222,7 @@ def _weighings(results: Results) -> Iterator[Claim]:
                 claim=f"{maze} b > a",
                 source="text",
                 statement=f"In most successful runs on {maze} the objective function weighs novelty more",
-                evidence=evidence(experiment, runs=len(runs)),
+                evidence=evidence({experiment: runs}),
             )
 
 

@@ -34,8 +34,7 @@ def ledger(results: Results, repeats: Results | None = None) -> pd.DataFrame:
     Parameters
     ----------
     results : mapping of Experiment to DataFrame
-        The runs of each experiment, one for each algorithm and maze. Experiments that are not the paper's bear on none
-        of its claims.
+        The runs of each experiment, one for each algorithm and maze. Those that are not the paper's do not count.
     repeats : mapping of Experiment to DataFrame, optional
         Runs with further seeds of some of these experiments: a second look at numbers that deviate.
 
@@ -74,7 +73,7 @@ def deviating_experiments(results: Results) -> list[Experiment]:
 def experiments_behind(table: pd.DataFrame, results: Results, repeats: Results | None = None) -> list[Results]:
     """For each claim of a ledger the experiments that its evidence names; results and repeats are those of `ledger`."""
     alone = [{experiment: runs} for experiment, runs in _the_papers(results).items()]
-    named = {_evidence(parts): parts for parts in [*alone, *_pooled(repeats or {})]}
+    named = {claims.evidence(parts): parts for parts in [*alone, *_pooled(repeats or {})]}
     return [
         {e: runs for text in evidence.split("; ") for e, runs in named.get(text, {}).items()}
         for evidence in table.evidence
@@ -139,7 +138,7 @@ def _second_look(table: pd.DataFrame, repeats: Results) -> pd.DataFrame:
         for claim in [*claims.successes(together), *claims.generations(together)]:
             if table.p_value[claim.claim] < ALPHA:
                 chosen_from = int((table.family == claim.family).sum())
-                again = replace(claim, family=SECOND_LOOK, evidence=_evidence(parts))
+                again = replace(claim, family=SECOND_LOOK, evidence=claims.evidence(parts))
                 rows[f"{claim.claim}, second look"] = vars(again) | {
                     "p_adjusted": min(1.0, claim.p_value * chosen_from)
                 }
@@ -153,10 +152,6 @@ def _pooled(repeats: Results) -> list[Results]:
         if is_the_papers(experiment):
             pooled.setdefault((experiment.maze.name, experiment.algorithm.name), {})[experiment] = runs
     return list(pooled.values())
-
-
-def _evidence(parts: Results) -> str:
-    return claims.evidence(*parts, runs=sum(map(len, parts.values())))
 
 
 def _difference(row: pd.Series) -> str:

@@ -177,12 +177,7 @@ def key_figures(measured: pd.DataFrame) -> pd.DataFrame:
 
 
 def plot_parts(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
-    """The cost of the parts of a generation (see `parts_table`), a bar for each algorithm.
-
-    Returns
-    -------
-    Figure, array of Axes of shape (mazes,)
-    """
+    """The cost of the parts of a generation (see `parts_table`), a bar for each algorithm."""
     mazes = table.index.unique("maze")
     parts = table.drop(columns="all")
     figure, grid = plt.subplots(1, len(mazes), figsize=(4 * len(mazes), 2.9), squeeze=False, sharex=True)
@@ -198,12 +193,7 @@ def plot_parts(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
 
 
 def plot_growth(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
-    """How the cost grows with each size that is varied (see `growth_table`), on logarithmic axes.
-
-    Returns
-    -------
-    Figure, array of Axes of shape (rows, 2)
-    """
+    """How the cost grows with each size that is varied (see `growth_table`), on logarithmic axes."""
     whats = table.what.unique()
     figure, grid = plt.subplots(-(-len(whats) // 2), 2, figsize=(8, 2.9 * -(-len(whats) // 2)), squeeze=False)
     for axes, what in zip(grid.flat, whats, strict=False):

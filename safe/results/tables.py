@@ -1,4 +1,12 @@
-"""Tables of results, one row for each experiment, and the same tables to read, beside what a paper reports."""
+"""Tables of results, a row for each experiment, and the same tables to read, beside what a paper reports.
+
+Every table takes `results`, the runs of each experiment as `safe.run` gives them. Its rows are in the same order, and
+its index consists of labels (see `safe.results.labels`). Algorithms to compare are given by their names.
+
+`paper` is a function that returns, for an experiment, what a paper reports of it: a row for each quantity ("successes",
+"generations to success", and a, b, p1..p16 for evolved values), with columns mean (or the count), sd and n. For the
+paper on SAFE it is `safe.companion.paper.reported`.
+"""
 
 from __future__ import annotations
 
@@ -14,35 +22,24 @@ from safe.experiments.experiment import WEIGHT_COLUMNS, Experiment
 from safe.maze import SENSORS
 from safe.results import formats
 from safe.results.labels import labels, row_labels
-from safe.results.statistics import (
-    Comparison,
-    compare_means,
-    compare_rates,
-    compare_times,
-    holm,
-    success_interval,
-)
+from safe.results.statistics import Comparison, compare_means, compare_rates, compare_times, holm, success_interval
 
 Results = Mapping[Experiment, pd.DataFrame]  # the runs of each experiment, as `safe.run` gives them
-Pair = tuple[Experiment, Experiment]
-Paper = Callable[[Experiment], pd.DataFrame]  # mean, sd and n, by quantity; see `no_paper`
+Paper = Callable[[Experiment], pd.DataFrame]  # mean, sd and n, by quantity
 
 COMPARED = [field.name for field in fields(Comparison)]
+# what each coefficient and each weight multiplies
 _WEIGHED = dict(zip(COEFFICIENTS, COMPONENTS, strict=True)) | dict(
     zip(WEIGHT_COLUMNS, (f"{sensor} in {total}" for total in "hv" for sensor in SENSORS), strict=True)
 )
 
 
 def no_paper(experiment: Experiment) -> pd.DataFrame:
-    """The numbers that a paper reports of an experiment, if there is no paper: a table without rows.
-
-    A function for a paper, such as `safe.companion.paper.reported`, returns a row for each quantity ("successes",
-    "generations to success", and a, b, p1..p16 for evolved values), with columns mean (or the count), sd and n.
-    """
+    """The default `paper`, which reports nothing."""
     return pd.DataFrame(columns=["mean", "sd", "n"], dtype=float)
 
 
-def pairs(results: Iterable[Experiment], names: Sequence[tuple[str, str]]) -> list[Pair]:
+def pairs(results: Iterable[Experiment], names: Sequence[tuple[str, str]]) -> list[tuple[Experiment, Experiment]]:
     """Pairs of experiments on the same maze, by the names of their algorithms: maze by maze, in the order of names.
 
     If several experiments on one maze share a name, each of them is paired.
@@ -70,19 +67,12 @@ def pairs(results: Iterable[Experiment], names: Sequence[tuple[str, str]]) -> li
 def success_table(results: Results, paper: Paper = no_paper) -> pd.DataFrame:
     """Successes, beside what a paper reports.
 
-    Parameters
-    ----------
-    results : mapping of Experiment to DataFrame
-        The runs of each experiment, as `safe.run` gives them.
-    paper : function of an Experiment that returns a DataFrame
-        What the paper reports of it; see `no_paper`.
-
     Returns
     -------
-    pandas.DataFrame, one row for each experiment, in order, indexed by maze and algorithm (see `labels.labels`)
+    pandas.DataFrame, one row for each experiment, indexed by maze and algorithm
         successes, runs; low and high, the ends of the 95 % interval of the rate; paper_successes and paper_runs; and
         how the two rates compare (`compare_rates`): difference, difference_low and difference_high, p_value, effect,
-        p_equivalence. Not a number if the paper reports none.
+        p_equivalence. These are not a number if the paper reports nothing.
     """
     rows = []
     for experiment, runs in results.items():
@@ -129,13 +119,6 @@ def readable_success_table(table: pd.DataFrame) -> pd.DataFrame:
 def difference_table(results: Results, first: str, second: str) -> pd.DataFrame:
     """How often two algorithms succeed, and how the rates differ; to read.
 
-    Parameters
-    ----------
-    results : mapping of Experiment to DataFrame
-        The runs of each experiment, as `safe.run` gives them.
-    first, second : str
-        Names of the two algorithms.
-
     Returns
     -------
     pandas.DataFrame, one row for each pair of `pairs`, indexed by maze
@@ -168,13 +151,6 @@ def difference_table(results: Results, first: str, second: str) -> pd.DataFrame:
 def times_table(results: Results, names: Sequence[tuple[str, str]]) -> pd.DataFrame:
     """Pairs of algorithms compared by their generations to success; to read.
 
-    Parameters
-    ----------
-    results : mapping of Experiment to DataFrame
-        The runs of each experiment, as `safe.run` gives them.
-    names : sequence of (str, str)
-        Names of the two algorithms of each pair.
-
     Returns
     -------
     pandas.DataFrame, one row for each pair of `pairs`, indexed by maze, first and second
@@ -201,20 +177,13 @@ def times_table(results: Results, names: Sequence[tuple[str, str]]) -> pd.DataFr
 def generations_table(results: Results, paper: Paper = no_paper) -> pd.DataFrame:
     """Generations to success, averaged over the successful runs, beside what a paper reports.
 
-    Random search goes on after a success, so it has none (see `with_generations`).
-
-    Parameters
-    ----------
-    results : mapping of Experiment to DataFrame
-        The runs of each experiment, as `safe.run` gives them.
-    paper : function of an Experiment that returns a DataFrame
-        What the paper reports of it; see `no_paper`.
+    Random search goes on after a success, so it has no row (see `with_generations`).
 
     Returns
     -------
-    pandas.DataFrame, one row for each experiment, in order, indexed by maze and algorithm (see `labels.labels`)
+    pandas.DataFrame, one row for each experiment, indexed by maze and algorithm
         mean, sd (ddof = 0) and n; paper_mean, paper_sd and paper_n; and how the two means compare (`compare_means`):
-        difference, low, high, p_value, effect, p_equivalence. Not a number if there is none.
+        difference, low, high, p_value, effect, p_equivalence. A value that cannot be computed is not a number.
     """
     timed = with_generations(results)
     rows = [(e, "generations to success", runs.generation[runs.success]) for e, runs in timed.items()]
@@ -223,7 +192,7 @@ def generations_table(results: Results, paper: Paper = no_paper) -> pd.DataFrame
 
 
 def with_generations(results: Results) -> Results:
-    """Those of the results that have generations to success: all but those of random search."""
+    """The results that have generations to success: all except those of random search."""
     return {experiment: runs for experiment, runs in results.items() if not experiment.algorithm.is_random_search}
 
 
@@ -232,16 +201,12 @@ def evolved_table(results: Results, items: Sequence[str], paper: Paper = no_pape
 
     Parameters
     ----------
-    results : mapping of Experiment to DataFrame
-        The runs of each experiment, as `safe.run` gives them.
     items : sequence of str
         Coefficients a, b and weights p1..p16.
-    paper : function of an Experiment that returns a DataFrame
-        What the paper reports of it; see `no_paper`.
 
     Returns
     -------
-    pandas.DataFrame, a row for each item of each experiment, indexed by maze (see `labels.row_labels`), item, weighs
+    pandas.DataFrame, one row for each item of each experiment, indexed by maze, item and weighs
         Columns as in `generations_table`.
     """
     rows = [(e, item, runs[runs.success][item]) for e, runs in results.items() for item in items]

@@ -44,7 +44,7 @@ def every_parameter():
 
 
 def run(notebook: Path, **parameters):
-    """The names that the code of a notebook leaves, executed here with these parameters in place of its own."""
+    """The variables of a notebook, after its code has run here with these parameters in place of its own."""
     names = {}
     for cell in json.loads(notebook.read_text())["cells"]:
         if cell["cell_type"] == "code":

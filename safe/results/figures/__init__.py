@@ -1,4 +1,8 @@
-"""Figures of mazes, paths, runs and results. They draw what they are given, and never run an experiment."""
+"""Figures of mazes, paths, runs and results, which draw what they are given, and never run an experiment.
+
+Functions named `plot_...` return the figure and its axes: a single one, or an array of the panels, from left to right
+or, if there are several rows of them, row by row. `results` and `paper` are those of `safe.results.tables`.
+"""
 
 from safe.results.figures.mazes import (
     draw_maze,

@@ -58,17 +58,12 @@ def draw_path(axes: Axes, path: np.ndarray) -> None:
 
 
 def plot_mazes(mazes: Sequence[Maze]) -> tuple[Figure, np.ndarray]:
-    """The mazes side by side. Returns the figure and its axes, an array of shape (1, number of mazes)."""
+    """The mazes side by side, in axes of shape (1, number of mazes)."""
     return plot_paths([[(maze, None, label) for maze, label in zip(mazes, maze_labels(mazes), strict=True)]])
 
 
 def plot_paths(rows: Sequence[Sequence[tuple[Maze, np.ndarray | None, str]]]) -> tuple[Figure, np.ndarray]:
-    """Rows of mazes, each with a path (or None) and a title.
-
-    Returns
-    -------
-    Figure, array of Axes of shape (rows, mazes in the longest row)
-    """
+    """Rows of mazes, each with a path (or None) and a title; the axes have the shape (rows, mazes in the longest)."""
     columns = max(len(row) for row in rows)
     side = 4.2 if columns < 3 else 3.1
     figure, grid = plt.subplots(

@@ -35,10 +35,6 @@ def plot_judging(generations: Mapping[str, Generation]) -> tuple[Figure, np.ndar
     ----------
     generations : mapping of str to Generation
         The generations, by their titles.
-
-    Returns
-    -------
-    Figure, array of Axes of shape (generations,)
     """
     widths = [len(generation.objectives) + 5.5 for generation in generations.values()]
     rows = max(len(generation.genomes) for generation in generations.values())
@@ -94,12 +90,7 @@ def _draw_judging(axes: Axes, generation: Generation) -> None:
 
 
 def plot_progress(story: Sequence[Generation]) -> tuple[Figure, np.ndarray]:
-    """How a run went: distances to the goal and, if it was computed, novelty, by generation.
-
-    Returns
-    -------
-    Figure, array of Axes of shape (1,) or (2,)
-    """
+    """How a run went: distances to the goal and, if it was computed, novelty, by generation."""
     numbers = [generation.generation for generation in story]
     has_novelty = story[0].novelty is not None
     figure, grid = plt.subplots(1 + has_novelty, 1, figsize=(7, 2.6 * (1 + has_novelty)), sharex=True, squeeze=False)
@@ -121,12 +112,7 @@ def plot_progress(story: Sequence[Generation]) -> tuple[Figure, np.ndarray]:
 
 
 def plot_generation(maze: Maze, generation: Generation) -> tuple[Figure, np.ndarray]:
-    """End points and archive over the maze and, if there are several, the objective functions.
-
-    Returns
-    -------
-    Figure, array of Axes of shape (1,) or (2,)
-    """
+    """End points and archive over the maze and, if there are several, the objective functions."""
     several = len(generation.objectives) > 1
     figure, grid = plt.subplots(1, 1 + several, figsize=(4.6 * (1 + several), 5), squeeze=False)
     draw_maze(grid[0, 0], maze)

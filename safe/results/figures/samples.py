@@ -18,17 +18,7 @@ from safe.results.tables import Paper, no_paper
 
 
 def plot_success(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
-    """Rates of success with their 95 % intervals, beside the paper's.
-
-    Parameters
-    ----------
-    table : DataFrame
-        A table of `tables.success_table`.
-
-    Returns
-    -------
-    Figure, array of Axes of shape (mazes,)
-    """
+    """Rates of success with their 95 % intervals, beside the paper's, from a table of `tables.success_table`."""
     mazes, algorithms = table.index.unique("maze"), table.index.unique("algorithm")
     figure, grid = plt.subplots(1, len(mazes), figsize=(4.2 * len(mazes), 3.2), squeeze=False, sharey=True)
     for axes, maze in zip(grid[0], mazes, strict=True):
@@ -48,17 +38,7 @@ def plot_success(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
 
 
 def plot_success_curves(results: Mapping[Experiment, pd.DataFrame]) -> tuple[Figure, np.ndarray]:
-    """The share of runs that have succeeded, generation by generation, with 95 % bands (`statistics.success_curve`).
-
-    Parameters
-    ----------
-    results : mapping of Experiment to DataFrame
-        The runs of each experiment, as `safe.run` gives them.
-
-    Returns
-    -------
-    Figure, array of Axes of shape (mazes,)
-    """
+    """The share of runs that have succeeded, generation by generation, with 95 % bands (`statistics.success_curve`)."""
     labelled = list(zip(labels(results), results.items(), strict=True))
     mazes, algorithms = (list(dict.fromkeys(names)) for names in zip(*labels(results), strict=True))
     figure, grid = plt.subplots(1, len(mazes), figsize=(4.4 * len(mazes), 3.6), squeeze=False)
@@ -80,19 +60,7 @@ def plot_success_curves(results: Mapping[Experiment, pd.DataFrame]) -> tuple[Fig
 
 
 def plot_coefficients(results: Mapping[Experiment, pd.DataFrame], paper: Paper = no_paper) -> tuple[Figure, np.ndarray]:
-    """The objective functions of successful runs, as points (a, b), and the paper's mean and standard deviation.
-
-    Parameters
-    ----------
-    results : mapping of Experiment to DataFrame
-        The runs of each experiment, as `safe.run` gives them.
-    paper : function of an Experiment that returns a DataFrame
-        What the paper reports of it; see `tables.success_table`.
-
-    Returns
-    -------
-    Figure, array of Axes of shape (experiments,)
-    """
+    """The objective functions of successful runs, as points (a, b), and the paper's mean and standard deviation."""
     figure, grid = plt.subplots(1, len(results), figsize=(4.2 * len(results), 4.4), squeeze=False)
     for axes, label, (experiment, runs) in zip(grid[0], row_labels(results), results.items(), strict=True):
         successful = runs[runs.success]
@@ -105,17 +73,7 @@ def plot_coefficients(results: Mapping[Experiment, pd.DataFrame], paper: Paper =
 
 
 def plot_weights(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
-    """The evolved weights of controllers, mean and standard deviation, beside the paper's.
-
-    Parameters
-    ----------
-    table : DataFrame
-        A table of `tables.evolved_table`.
-
-    Returns
-    -------
-    Figure, array of Axes of shape (experiments,)
-    """
+    """Means and standard deviations of evolved weights, beside the paper's, from a table of `tables.evolved_table`."""
     experiments = table.index.unique("maze")
     figure, grid = plt.subplots(1, len(experiments), figsize=(4.4 * len(experiments), 6), squeeze=False, sharey=True)
     for axes, experiment in zip(grid[0], experiments, strict=True):
