@@ -1,9 +1,9 @@
-"""What the notebooks of the book ask of Jupyter: the looks of figures, tables to take along, numbers for the prose."""
+"""Helpers of the book's notebooks: the style of figures, tables with links, numbers for the prose, parameters read."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Executor
 
 import numpy as np
@@ -12,17 +12,13 @@ from IPython import get_ipython
 from IPython.display import display
 
 from safe import checks
-from safe.experiments.experiment import Experiment
-from safe.playground.address import run_address
 from safe.results import figures
-
-Link = tuple[str, str]  # its text, and an address in the playground
 
 
 def prepare() -> None:
-    """Give figures the style of the book, and let every table carry itself along as CSV, for the book to offer.
+    """Give figures the style of the book, and let every table carry a copy of itself as CSV, for the book to offer.
 
-    Names in tables are not read as mathematics.
+    No name in a table is read as mathematics.
     """
     figures.use_style()
     pd.set_option("display.html.use_mathjax", False)
@@ -32,22 +28,22 @@ def prepare() -> None:
         formatter.for_type(pd.DataFrame, lambda table, **_: {"text/csv": table.to_csv()})
 
 
-def show_table(table: pd.DataFrame, links: Sequence[Sequence[Link]], heading: str = "replay") -> None:
-    """Show a table whose rows have links to the playground, which stand in the book and nowhere else.
+def show_table(table: pd.DataFrame, links: Sequence[Sequence[tuple[str, str]]], heading: str = "replay") -> None:
+    """Show a table whose rows have links to the playground, which appear on the pages of the book and nowhere else.
 
     Parameters
     ----------
     table : DataFrame
         As it is shown in Jupyter, in print, and for download.
     links : sequence of sequences of (text, address), one for each row
-        The links of each row. They travel beside the CSV, as metadata of the output.
+        The links of each row (see `safe.playground.links`). They travel beside the CSV, as metadata of the output.
     heading : str
-        Over the column that the links are in. Where the table has such a column, its texts become the links.
+        The heading of the column of links. If the table has a column of that name, its texts become the links.
 
     Raises
     ------
     ValueError
-        Where there are not as many rows of links as the table has.
+        If there are not as many rows of links as the table has.
     """
     if len(links) != len(table):
         raise ValueError(f"links must be as many as the {len(table)} rows of the table; got {len(links)}")
@@ -56,50 +52,8 @@ def show_table(table: pd.DataFrame, links: Sequence[Sequence[Link]], heading: st
     )
 
 
-def replays(results: Mapping[Experiment, pd.DataFrame]) -> list[Link]:
-    """A link to one run of each experiment: the first that succeeded, or the first of all where none did.
-
-    The text of a link is the number of the run, and whatever experiments differ in: maze, algorithm, seed.
-
-    Parameters
-    ----------
-    results : mapping of Experiment to DataFrame
-        The runs of each experiment, as `safe.run` gives them.
-
-    Examples
-    --------
-    >>> from safe import run_all
-    >>> results = run_all(["novelty", "random"], ["maze1"], runs=2, seed=0)
-    >>> [text for text, address in replays(results)]
-    ['novelty: run 1', 'random: run 0']
-    """
-    labels = [(e.maze.name, e.algorithm.name, f"seed {e.seed}") for e in results]
-    differing = [len(set(of_all)) > 1 for of_all in zip(*labels, strict=True)]
-    links = []
-    for (experiment, runs), label in zip(results.items(), labels, strict=True):
-        number = int(runs.run[runs.success.idxmax()])
-        which = ", ".join(part for part, differs in zip(label, differing, strict=True) if differs)
-        links.append((f"{which}: run {number}" if which else f"run {number}", run_address(experiment, number)))
-    return links
-
-
-def replays_of_rows(table: pd.DataFrame, results: Mapping[Experiment, pd.DataFrame]) -> list[list[Link]]:
-    """For each row of a table the links (see `replays`) to the experiments that it tells of.
-
-    A row tells of a maze, which it names in its index, as `maze`, and of the algorithms that it names there, as
-    `algorithm`, or as `first` and `second`; where it names none, of all of them.
-    """
-    found = []
-    for _, row in table.index.to_frame().iterrows():
-        named = row.reindex(["algorithm", "first", "second"]).dropna().tolist()
-        of_maze = {e: runs for e, runs in results.items() if e.maze.name == row.maze}
-        algorithms = named or dict.fromkeys(e.algorithm.name for e in of_maze)
-        found.append(replays({e: of_maze[e] for name in algorithms for e in of_maze if e.algorithm.name == name}))
-    return found
-
-
 def export_numbers(table: pd.DataFrame) -> None:
-    """Hand the numbers of a table on to the prose of the book, as `column_index`: successes_maze1_safe."""
+    """Export the numbers of a table to the prose of the book, named `column_index`: successes_maze1_safe."""
     numbers = {
         "_".join([column, *map(str, index if isinstance(index, tuple) else [index])]): value
         for column, values in json.loads(table.reset_index(drop=True).to_json()).items()
@@ -109,7 +63,7 @@ def export_numbers(table: pd.DataFrame) -> None:
 
 
 def executor_at(scheduler: str, patience: float = 10) -> Executor | None:
-    """What computes runs: the workers of a Dask scheduler; None, which stands for the cores of this machine, for "".
+    """An executor on the workers of a Dask scheduler; None, which stands for the cores of this machine, for "".
 
     Parameters
     ----------
@@ -121,7 +75,7 @@ def executor_at(scheduler: str, patience: float = 10) -> Executor | None:
     Raises
     ------
     ValueError
-        Where no scheduler answers there, or Dask is not installed.
+        If no scheduler answers there, or Dask is not installed.
     """
     if scheduler == "":
         return None
@@ -129,7 +83,7 @@ def executor_at(scheduler: str, patience: float = 10) -> Executor | None:
         from distributed import Client  # not in every environment, and slow to import
         from distributed.comm import get_address_host_port
 
-        # a client that fails at what is no address stays half alive, and can block another when it is collected
+        # a client that fails at a malformed address stays half alive, and can block another when it is collected
         get_address_host_port(checks.text("scheduler", scheduler))
         return Client(scheduler, timeout=patience, set_as_default=False).get_executor()
     except (ImportError, OSError, TypeError, ValueError) as error:
@@ -140,7 +94,7 @@ def executor_at(scheduler: str, patience: float = 10) -> Executor | None:
 
 
 def show_page(page: str, instead: str) -> None:
-    """Show HTML, and a text where there is none, as in print."""
+    """Show a page of HTML and, where HTML cannot be shown, as in print, a text instead."""
     display({"text/html": page, "text/plain": instead}, raw=True)
 
 
@@ -154,7 +108,7 @@ def read_points(text: str) -> np.ndarray:
     Raises
     ------
     ValueError
-        Where there are fewer than two, or one is not two integers of at most a million, either side of 0.
+        If there are fewer than two, or one is not two integers from minus a million to a million.
 
     Examples
     --------

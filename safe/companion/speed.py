@@ -1,7 +1,7 @@
-"""What `make bench` has measured, as tables.
+"""The measurements of `make bench`, as tables and figures.
 
-The file of measurements holds, for each benchmark, its group, the seconds of one round, and what the round was: most
-often so many `generations`, and in each so many `points`. Times are those of the processor where nothing is waited for.
+The file of measurements holds, for each benchmark, its group, the seconds of one round, and what a round does: most
+often so many `generations`, and in each so many `points`. Times are processor times if a round waits for nothing.
 """
 
 from __future__ import annotations
@@ -10,9 +10,13 @@ import json
 import os
 from pathlib import Path
 
+import matplotlib.pyplot as plt
+import numpy as np
 import pandas as pd
+from matplotlib.figure import Figure
 
 from safe import checks
+from safe.results.figures.style import FAINT, legend_below, plain
 
 PARTS = (
     "robot",
@@ -23,22 +27,30 @@ PARTS = (
     "breeding of objective functions",
     "all",
 )
-PEERS = {  # group: what one of them is
+PEERS = {  # group: the unit that is timed
     "peers: robot": "end point",
     "peers: novelty": "novelty, end point",
     "peers: objective functions": "novelty, objective function",
     "peers: run": "generation, ",
     "twin": "generation in the playground, ",
 }
+VARIED = {  # sizes that are varied, in words
+    "population": "solutions, and as many objective functions",
+    "archive": "places in an archive",
+    "k": "k, nearest neighbours",
+    "steps": "steps of a robot",
+    "maze": "cells along a side of the maze",
+    "runs": "runs of an experiment",
+}
 
 
 def read_measured(path: str | os.PathLike) -> tuple[pd.DataFrame, dict[str, str]]:
-    """All measurements, one row each, and what they were made on.
+    """All measurements, one row each, and a description of the machine that they were made on.
 
     Raises
     ------
     ValueError
-        Where the file holds no measurements.
+        If the file holds no measurements.
     """
     try:
         found = json.loads(Path(path).read_text(encoding="utf-8"))
@@ -61,7 +73,7 @@ def read_measured(path: str | os.PathLike) -> tuple[pd.DataFrame, dict[str, str]
 
 
 def _of(measured: pd.DataFrame, group: str) -> pd.DataFrame:
-    """The measurements of a group, with those columns that it has."""
+    """The measurements of a group, without the columns that are empty in it."""
     return measured[measured["group"] == group].dropna(axis="columns", how="all")
 
 
@@ -81,7 +93,7 @@ def parts_table(measured: pd.DataFrame) -> pd.DataFrame:
 
 
 def peers_table(measured: pd.DataFrame) -> pd.DataFrame:
-    """What takes how long by which method, and how many times as long as here.
+    """How long each method takes for the same task, and how many times as long as this package.
 
     Examples
     --------
@@ -105,7 +117,7 @@ def peers_table(measured: pd.DataFrame) -> pd.DataFrame:
 
 
 def paper_table(measured: pd.DataFrame) -> pd.DataFrame:
-    """What each of the paper's experiments costs, and how many times as much by the straightforward version."""
+    """The cost of each of the paper's experiments, and how many times as much the straightforward version takes."""
     paper = _of(measured, "paper").set_index(["maze", "algorithm"])
     plain = _of(measured, "paper: straightforward").set_index(["maze", "algorithm"])
     return pd.DataFrame(
@@ -119,7 +131,7 @@ def paper_table(measured: pd.DataFrame) -> pd.DataFrame:
 
 
 def growth_table(measured: pd.DataFrame) -> pd.DataFrame:
-    """Seconds for each size of what is varied, by what was timed: a generation of it, or all runs of an experiment."""
+    """Seconds at each size that is varied, for one generation or, if runs are varied, for a whole experiment."""
     growth = _of(measured, "growth")
     whole = growth.kernel == "all"
     label = growth.kernel.where(~whole, growth.get("algorithm"))
@@ -141,7 +153,13 @@ def first_use_table(measured: pd.DataFrame) -> pd.DataFrame:
 
 
 def key_figures(measured: pd.DataFrame) -> pd.DataFrame:
-    """What texts say of all this, rounded, in one column: the rows are named by what they are."""
+    """The figures that the prose quotes, rounded to two digits, in one column.
+
+    Raises
+    ------
+    ValueError
+        If the measurements hold none of the playground in Chromium.
+    """
     parts, paper = parts_table(measured)["all"], paper_table(measured)
     twin = _of(measured, "twin")
     page = twin[twin.method.str.startswith("Chromium") & (twin.algorithm == "novelty")] if len(twin) else twin
@@ -156,3 +174,38 @@ def key_figures(measured: pd.DataFrame) -> pd.DataFrame:
         **{f"safe_to_novelty_{maze}": parts[maze, "safe"] / parts[maze, "novelty"] for maze in ("maze1", "maze2")},
     }
     return pd.DataFrame({"speed": {"runs": paper.runs.sum(), **{n: float(f"{v:.2g}") for n, v in figures.items()}}})
+
+
+def plot_parts(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
+    """The cost of the parts of a generation (see `parts_table`), a bar for each algorithm."""
+    mazes = table.index.unique("maze")
+    parts = table.drop(columns="all")
+    figure, grid = plt.subplots(1, len(mazes), figsize=(4 * len(mazes), 2.9), squeeze=False, sharex=True)
+    for axes, maze in zip(grid[0], mazes, strict=True):
+        rows = parts.loc[maze].iloc[::-1].fillna(0)
+        left = np.zeros(len(rows))
+        for part in rows:
+            axes.barh([plain(name) for name in rows.index], rows[part], left=left, label=part, height=0.6)
+            left += rows[part].to_numpy()
+        axes.set(title=plain(maze), xlabel="microseconds a generation")
+    legend_below(figure)
+    return figure, grid[0]
+
+
+def plot_growth(table: pd.DataFrame) -> tuple[Figure, np.ndarray]:
+    """How the cost grows with each size that is varied (see `growth_table`), on logarithmic axes."""
+    whats = table.what.unique()
+    figure, grid = plt.subplots(-(-len(whats) // 2), 2, figsize=(8, 2.9 * -(-len(whats) // 2)), squeeze=False)
+    for axes, what in zip(grid.flat, whats, strict=False):
+        rows = table[table.what == what]
+        for label, line in rows.groupby("of", sort=False):
+            axes.plot(line["size"], 1000 * line.seconds, "o-", markersize=4, label=plain(label))
+        # a logarithmic axis has no place for 0, an archive without places
+        axes.set(xscale="symlog" if rows["size"].min() == 0 else "log", yscale="log", xlabel=VARIED.get(what, what))
+        sizes = np.array(sorted(rows["size"][rows["size"] > 0]))[[0, -1]]
+        axes.plot(sizes, 1000 * rows.seconds.min() * sizes / sizes[0], ":", color=FAINT, label="in proportion")
+        axes.set_ylabel("milliseconds")
+        axes.legend(fontsize="x-small")
+    for axes in grid.flat[len(whats) :]:
+        axes.set_axis_off()
+    return figure, grid

@@ -2,18 +2,17 @@
 
 Each comparison answers two questions. Is a difference detected: could two samples differ this much by chance, if both
 came from one source? And is equivalence shown: is a difference as large as MARGIN ruled out (two one-sided tests)?
-Where neither holds the samples are too small to tell.
+If neither holds, the samples are too small to decide.
 
-MARGIN is 0.2 on the scale of standardised effects, which is what Cohen calls small: a convention, and so not chosen to
-suit any data. For rates the effect is Cohen's h, the difference of arcsines 2 arcsin sqrt(rate), whose error hardly
-depends on the rates, except where hardly any run succeeds. 0.2 is 10 percentage points near a rate of one half; around
-2 % it reaches from 0.2 % to 5.7 %. For means the effect is Cohen's d, the difference in standard deviations.
+MARGIN is 0.2 on the scale of standardised effects, which Cohen calls small: a convention, and so not chosen to suit any
+data. For rates the effect is Cohen's h, the difference of arcsines 2 arcsin sqrt(rate); its error hardly depends on the
+rates, unless hardly any run succeeds. 0.2 is 10 percentage points near a rate of one half; around 2 % it reaches from
+0.2 % to 5.7 %. For means the effect is Cohen's d, the difference in standard deviations.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,13 +35,13 @@ class Comparison:
     difference: float  # the first rate or mean less the second
     low: float  # the lower end of the 95 % interval of the difference
     high: float  # the upper end
-    p_value: float  # probability of a difference at least this large, if there is none
+    p_value: float  # probability of a difference at least this large, if both samples come from one source
     effect: float  # the difference, standardised: Cohen's h or d
     p_equivalence: float  # probability of an effect this small or smaller, if the true one is MARGIN
 
 
 def success_interval(successes: int, runs: int) -> tuple[float, float]:
-    """Wilson's 95 % interval for the rate of success, its two ends in [0, 1] (Wilson 1927).
+    """Wilson's 95 % interval for the rate of success: its two ends, in [0, 1] (Wilson 1927).
 
     Examples
     --------
@@ -84,7 +83,7 @@ def compare_rates(successes: int, runs: int, other_successes: int, other_runs: i
 def compare_means(mean: float, sd: float, n: int, other_mean: float, other_sd: float, other_n: int) -> Comparison:
     """Two means: Welch's test and interval, Cohen's d. Standard deviations are of the population (ddof = 0).
 
-    All is not a number where a sample is smaller than two.
+    If a sample has fewer than two values, or neither varies, everything but the difference is not a number.
 
     Examples
     --------
@@ -111,7 +110,7 @@ def compare_means(mean: float, sd: float, n: int, other_mean: float, other_sd: f
 
 
 def holm(p_values: pd.Series) -> pd.Series:
-    """Values of p corrected for each other (Holm 1979); what is not a number stays so, and does not count.
+    """Values of p corrected for one another (Holm 1979); one that is not a number stays so, and does not count.
 
     Examples
     --------
@@ -125,20 +124,20 @@ def holm(p_values: pd.Series) -> pd.Series:
     return adjusted
 
 
-def runs_to_tell(rate: float, other_rate: float, power: float = 0.8) -> int:
-    """How many runs of each it takes to detect the difference of two rates, with this probability.
+def runs_needed(rate: float, other_rate: float, power: float = 0.8) -> int:
+    """How many runs of each are needed to detect the difference of two rates with this probability.
 
     Examples
     --------
-    >>> runs_to_tell(0.5, 0.6)
+    >>> runs_needed(0.5, 0.6)
     388
     """
     effect = proportion_effectsize(rate, other_rate)
     return math.ceil(NormalIndPower().solve_power(abs(effect), alpha=ALPHA, power=power))
 
 
-def arrivals(runs: pd.DataFrame) -> pd.DataFrame:
-    """The share of runs that have succeeded, by generation: one less the curve of Kaplan and Meier.
+def success_curve(runs: pd.DataFrame) -> pd.DataFrame:
+    """The share of runs that have succeeded, by generation: one minus the curve of Kaplan and Meier.
 
     Runs that did not succeed are censored: all that is known of them is that they had not by their last generation.
 
@@ -149,12 +148,12 @@ def arrivals(runs: pd.DataFrame) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame, one row for each generation in which a run succeeded
-        generation; share, low and high: the estimate and the ends of its pointwise 95 % interval, made for
-        log(-log(1 - share)), so that it stays between 0 and 1.
+        generation; share, low and high: the estimate and the ends of its pointwise 95 % interval, which is symmetric
+        in log(-log(1 - share)) and so stays between 0 and 1.
     """
     found = SurvfuncRight(runs.generation, runs.success.astype(int))
     left, error = np.asarray(found.surv_prob), np.asarray(found.surv_prob_se)
-    between = (left > 0) & (left < 1)  # with successes alone, or none, nothing is known of the error
+    between = (left > 0) & (left < 1)  # if all runs succeeded, or none did, there is no estimate of the error
     exponent = np.zeros(len(left))
     exponent[between] = stats.norm.isf(ALPHA / 2) * error[between] / (left[between] * np.log(left[between]))
     curve = {"generation": found.surv_times, "share": 1 - left}
@@ -166,7 +165,7 @@ def compare_times(runs: pd.DataFrame, other: pd.DataFrame) -> tuple[float, float
     """Generations to success of two experiments: Vargha and Delaney's A12, and p of the log-rank test.
 
     A12 is the probability that a run of the first is quicker than a run of the second, ties counted half; a run that
-    did not succeed is slower than all that did. Not a number where no run succeeded, or all at the same time.
+    did not succeed is slower than all that did. Both are not a number if no run succeeded, or all in one generation.
     """
     both = pd.concat([runs, other])
     if not both.success.any() or (both.success.all() and both.generation.min() == both.generation.max()):
@@ -176,28 +175,3 @@ def compare_times(runs: pd.DataFrame, other: pd.DataFrame) -> tuple[float, float
     which = np.repeat([0, 1], [len(runs), len(other)])
     _, p_value = survdiff(both.generation, both.success.astype(int), which)
     return 1 - float(later), float(p_value)
-
-
-def times_table(results: Mapping[tuple[str, str], pd.DataFrame], pairs: Sequence[tuple[str, str]]) -> pd.DataFrame:
-    """Pairs of algorithms compared by their generations to success, on each maze; to read.
-
-    Parameters
-    ----------
-    results : mapping of (maze, algorithm) to DataFrame
-        Runs, with columns success and generation.
-    pairs : sequence of (algorithm, algorithm)
-
-    Returns
-    -------
-    pandas.DataFrame, one row for each maze and pair
-        A12; p of the log-rank test; p corrected by Holm's method for all rows.
-    """
-    found = {
-        (maze, *pair): compare_times(*(results[maze, algorithm] for algorithm in pair))
-        for maze in dict.fromkeys(maze for maze, _ in results)
-        for pair in pairs
-    }
-    table = pd.DataFrame.from_dict(found, orient="index", columns=["A12", "p"])
-    table.index = pd.MultiIndex.from_tuples(found, names=["maze", "first", "second"])
-    table["p (Holm)"] = holm(table.p)
-    return table.map(lambda value: "–" if math.isnan(value) else f"{value:.2f}")

@@ -9,9 +9,10 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 
 import safe
+from safe.companion import paper
 from safe.maze import ways_to_goal
 from safe.playground import address
-from safe.results import statistics, tables
+from safe.results import statistics
 from tests.book.conftest import DESKTOP, PHONE
 from tests.helpers.browser import complaints_of, needs_browser
 from tests.playground.test_address import maze_of, run_at
@@ -346,7 +347,7 @@ def test_weights_to_start_from(visit):
     choice = page.get_by_role("combobox", name="Weights")
     titles = choice.locator("option").all_inner_texts()
     assert any("wall follower" in title for title in titles)
-    published = tables.published()
+    published = paper.published()
     for name in ("maze1", "maze2"):
         choice.select_option(label=next(title for title in titles if "Table 3" in title and name in title))
         rows = published[(published.table == "3") & (published.maze == name)].set_index("item")

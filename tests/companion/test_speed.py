@@ -6,7 +6,6 @@ import matplotlib.pyplot as plt
 import pytest
 
 from safe.companion import speed
-from safe.results import figures
 
 mpl.use("agg")
 RECORD = Path(__file__).parents[2] / "benchmarks" / "results.json"
@@ -17,7 +16,7 @@ def measured():
     return speed.read_measured(RECORD)[0]
 
 
-def test_the_machine_is_told_and_nobody_on_it():
+def test_the_machine_is_described_without_its_users():
     machine = speed.read_measured(RECORD)[1]
     assert list(machine) == ["processor", "system", "packages", "measured"]
     assert all(machine.values())
@@ -26,7 +25,7 @@ def test_the_machine_is_told_and_nobody_on_it():
 
 
 def test_parts_add_up_to_a_generation(measured):
-    """As well as they can on a machine that does other things, too: a part left out or counted twice is noticed."""
+    """Roughly, since the machine also did other things; a part left out or counted twice would show."""
     table = speed.parts_table(measured)
     together = table.drop(columns="all").sum(axis=1)
     assert len(table) == 6
@@ -34,7 +33,7 @@ def test_parts_add_up_to_a_generation(measured):
     assert table.loc["maze1", "standard"].isna().sum() == 3
 
 
-def test_peers_are_compared_with_what_is_here(measured):
+def test_peers_are_compared_with_this_package(measured):
     table = speed.peers_table(measured)
     assert (table.xs("safe", level="method").times_as_long == 1).all()
     assert len(table.xs("safe", level="method")) == 8
@@ -43,16 +42,16 @@ def test_peers_are_compared_with_what_is_here(measured):
     assert row.times_as_long == pytest.approx(row.microseconds / ours.microseconds)
 
 
-def test_every_experiment_of_the_paper_has_its_price(measured):
+def test_every_experiment_of_the_paper_has_its_cost(measured):
     table = speed.paper_table(measured)
     assert len(table) == 10
     assert table.notna().all().all()
     assert (table.runs == 500).all()
 
 
-def test_what_grows(measured):
+def test_growth(measured):
     table = speed.growth_table(measured)
-    assert set(table.what) == set(figures.VARIED)
+    assert set(table.what) == set(speed.VARIED)
     assert table.notna().all().all()
     assert not table.duplicated(["what", "of", "size"]).any()
 
@@ -74,13 +73,13 @@ def test_key_figures_need_a_browser(measured):
 
 
 def test_figures(measured):
-    _, panels = figures.plot_parts(speed.parts_table(measured))
+    _, panels = speed.plot_parts(speed.parts_table(measured))
     assert [axes.get_title() for axes in panels] == ["maze1", "maze2"]
     parts = speed.parts_table(measured)
     widths = sum(bar.get_width() for bar in panels[0].patches)
     assert widths == pytest.approx(parts.loc["maze1"].drop(columns="all").sum().sum())
-    _, panels = figures.plot_growth(speed.growth_table(measured))
-    assert sorted(axes.get_xlabel() for axes in panels.flat) == sorted(figures.VARIED.values())
+    _, panels = speed.plot_growth(speed.growth_table(measured))
+    assert sorted(axes.get_xlabel() for axes in panels.flat) == sorted(speed.VARIED.values())
     plt.close("all")
 
 

@@ -1,9 +1,9 @@
-"""The runs behind the recorded ledger, kept so that a verdict that changes is noticed without making all of them again.
+"""The runs behind the recorded ledger, kept so that a test notices a changed verdict without making them all again.
 
     python -m tests.helpers.record    makes tests/data/runs.npz and safe/companion/ledger.csv from results.sqlite
 
-Of each run it is kept how it ended, and its evolved values where the ledger looks at them. Look at what has changed in
-the ledger before you commit it: a verdict that changes is news.
+The record keeps how each run ended, and its evolved values if the ledger uses them. Examine what has changed in the
+ledger before you commit it: a verdict that changes is news.
 """
 
 from pathlib import Path
@@ -26,7 +26,7 @@ def experiments():
 
 
 def repetitions(experiment):
-    """Those of its second look at one of them."""
+    """The experiments of its second look at one of them."""
     return [
         safe.Experiment(experiment.algorithm, experiment.maze, experiment.runs, seed) for seed in SEEDS_OF_SECOND_LOOK
     ]
@@ -37,7 +37,7 @@ def key(experiment):
 
 
 def stripped(experiment, runs):
-    """What is kept of an experiment's runs, as one array, a row for each run."""
+    """The part of an experiment's runs that is kept, as one array, a row for each run."""
     kept = runs.reindex(columns=COLUMNS).astype(float)
     if experiment.algorithm.name == "safe":
         kept.loc[~runs.success, [*COEFFICIENTS, *WEIGHT_COLUMNS]] = np.nan
@@ -47,7 +47,7 @@ def stripped(experiment, runs):
 
 
 def recorded_runs():
-    """The runs as `safe.run` gives them, as far as they are kept."""
+    """The kept runs by key, with the columns of `safe.run` that are kept."""
     with np.load(FILE) as arrays:
         found = {}
         for name, array in arrays.items():

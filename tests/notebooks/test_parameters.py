@@ -1,10 +1,11 @@
-"""The notebooks with other parameters: a bad value of any gives an error that names it, a maze of one's own works."""
+"""The notebooks with other parameters: an error names a bad value, and mazes from files work."""
 
 import json
 from pathlib import Path
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
+import pandas as pd
 import papermill
 import pytest
 
@@ -43,7 +44,7 @@ def every_parameter():
 
 
 def run(notebook: Path, **parameters):
-    """The code of a notebook, executed here, with these parameters in place of its own."""
+    """The variables of a notebook, after its code has run here with these parameters in place of its own."""
     names = {}
     for cell in json.loads(notebook.read_text())["cells"]:
         if cell["cell_type"] == "code":
@@ -51,6 +52,7 @@ def run(notebook: Path, **parameters):
             if "parameters" in cell["metadata"].get("tags", []):
                 names |= parameters
     plt.close("all")
+    return names
 
 
 @pytest.mark.parametrize(("notebook", "name"), list(every_parameter()))
@@ -77,9 +79,18 @@ SMALL = {"runs": 2, "repeats": 1, "row": 0, "column": 2, "paths": 2}
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
-def test_a_maze_of_ones_own(notebook, tmp_path, monkeypatch):
+def test_mazes_from_files(notebook, tmp_path, monkeypatch):
+    """Two of the same name, if the notebook takes several: each has rows that differ from those of the other."""
     monkeypatch.chdir(tmp_path)
     Path("mine.txt").write_text(MAZE)
+    Path("other").mkdir()
+    Path("other/mine.txt").write_text(MAZE[::-1])
     known = papermill.inspect_notebook(notebook)
-    parameters = SMALL | {"maze": "mine.txt", "store": "results.sqlite", "measured": MEASURED}
-    run(notebook, **{name: value for name, value in parameters.items() if name in known})
+    takes_several = "maze" in known and " " in known["maze"]["default"]
+    mazes = "mine.txt other/mine.txt" if takes_several else "mine.txt"
+    parameters = SMALL | {"maze": mazes, "store": "results.sqlite", "measured": MEASURED}
+    names = run(notebook, **{name: value for name, value in parameters.items() if name in known})
+    shown = names.get("shown")
+    if isinstance(shown, pd.DataFrame):
+        assert shown.index.is_unique
+        assert not takes_several or len(shown.index.unique(0)) >= 2

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 import safe
+from safe.companion.paper import reported
 from safe.experiments.experiment import WEIGHT_COLUMNS
-from safe.results import figures, statistics, tables
+from safe.results import figures, tables
 from tests.results.test_tables import runs
 
 mpl.use("agg")
@@ -66,12 +67,12 @@ def story(algorithm):
 
 @pytest.mark.parametrize(("algorithm", "panels"), [("safe", 2), ("novelty", 2), ("standard", 1), ("random", 1)])
 def test_progress(algorithm, panels):
-    told = story(algorithm)
-    _, grid = figures.plot_progress(told)
+    of_run = story(algorithm)
+    _, grid = figures.plot_progress(of_run)
     assert len(grid) == panels
     of_generation, so_far = (line.get_ydata() for line in grid[0].get_lines())
     assert so_far.tolist() == np.minimum.accumulate(of_generation).tolist()
-    assert so_far[-1] == told[-1].distance
+    assert so_far[-1] == of_run[-1].distance
 
 
 @pytest.mark.parametrize(("algorithm", "panels"), [("safe", 2), ("novelty", 1), ("standard", 1), ("random", 1)])
@@ -89,12 +90,12 @@ def test_a_generation_is_shown_with_its_objective_functions(algorithm, panels):
         }
 
 
-def test_an_animation_needs_nothing_from_elsewhere():
+def test_an_animation_loads_nothing():
     maze = safe.Maze.from_drawing("S#\n.G", name='<b>"mine"')
-    told = list(
+    of_run = list(
         safe.generations(maze, "random", 0, safe.Parameters(population=4, objectives=4, generations=9, steps=1))
     )
-    page = figures.animate(maze, told, frames=4)
+    page = figures.animate(maze, of_run, frames=4)
     assert "://" not in page
     assert "<b>" not in page
     frames = json.loads(re.search(r"const frames = (\[.*?\])", page).group(1))
@@ -102,7 +103,7 @@ def test_an_animation_needs_nothing_from_elsewhere():
     sizes = {base64.b64decode(frame)[16:24] for frame in frames}  # width and height in the header of a PNG
     assert len(frames) == 4
     assert len(sizes) == 1
-    assert figures.animate(maze, told[:1]).count("iVBOR") == 1
+    assert figures.animate(maze, of_run[:1]).count("iVBOR") == 1
     assert plt.get_fignums() == []
 
 
@@ -119,8 +120,8 @@ def test_names_are_not_read_as_mathematics_or_markup(name):
         figures.plot_mazes([maze]),
         figures.plot_sensors(maze, maze.start),
         figures.plot_success(tables.success_table(results)),
-        figures.plot_arrivals({(name, name): statistics.arrivals(next(iter(results.values())))}, 9),
-        figures.plot_coefficients({name: next(iter(results.values()))}, evolved_weights),
+        figures.plot_success_curves(results),
+        figures.plot_coefficients(results),
         figures.plot_weights(evolved_weights),
         figures.plot_judging({name: story_of_it[0]}),
     ]
@@ -138,7 +139,7 @@ def test_names_are_not_read_as_mathematics_or_markup(name):
 
 def test_rates_of_success_with_the_papers():
     table = tables.success_table(
-        {safe.Experiment("safe", "maze1"): runs(3, 4), safe.Experiment("random", "maze1"): runs(0, 4)}
+        {safe.Experiment("safe", "maze1"): runs(3, 4), safe.Experiment("random", "maze1"): runs(0, 4)}, reported
     )
     _, (axes,) = figures.plot_success(table)
     assert [label.get_text() for label in axes.get_yticklabels()] == ["random", "safe"]
@@ -147,11 +148,9 @@ def test_rates_of_success_with_the_papers():
     assert paper.get_xdata().tolist() == pytest.approx([100 * 9 / 500, 100 * 328 / 500])
 
 
-def test_arrivals_rise_from_nothing_to_the_share_of_successes():
-    curves = {
-        ("maze1", name): statistics.arrivals(runs(n, 4, range(5, 5 + n))) for name, n in (("safe", 2), ("fixed", 0))
-    }
-    _, (axes,) = figures.plot_arrivals(curves, 500)
+def test_success_curves_rise_from_nothing_to_the_share_of_successes():
+    results = {safe.Experiment(name, "maze1"): runs(n, 4, range(5, 5 + n)) for name, n in (("safe", 2), ("fixed", 0))}
+    _, (axes,) = figures.plot_success_curves(results)
     safe_alone, fixed = axes.get_lines()
     assert safe_alone.get_xydata() == pytest.approx(np.array([[0, 0], [5, 25], [6, 50], [500, 50]]))
     assert fixed.get_xydata().tolist() == [[0, 0], [500, 0]]
@@ -164,13 +163,12 @@ def evolved(maze):
 
 def test_coefficients_and_weights_beside_the_papers():
     results = evolved("maze2")
-    table = tables.evolved_table(results, ["a", "b"])
-    _, (axes,) = figures.plot_coefficients({"maze2": next(iter(results.values()))}, table)
+    _, (axes,) = figures.plot_coefficients(results, reported)
     points, paper, *_ = axes.get_lines()
     assert points.get_xydata().tolist() == [[0.5, 1.0], [1.0, 0.9]]
     assert paper.get_xydata().tolist() == [[0.83, 0.98]]
 
-    _, (axes,) = figures.plot_weights(tables.evolved_table(results, WEIGHT_COLUMNS))
+    _, (axes,) = figures.plot_weights(tables.evolved_table(results, WEIGHT_COLUMNS, reported))
     labels = [label.get_text() for label in axes.get_yticklabels()]
     assert (labels[0], labels[-1]) == ("p16: goal_up in v", "p1: dist_right in h")
     ours, paper = (line for line in axes.get_lines() if line.get_marker() in ("o", "x") and len(line.get_xdata()) == 16)
@@ -200,7 +198,28 @@ def test_who_judges_whom():
     assert novelties <= {text.get_text() for text in coevolving.texts}
 
 
-def test_the_style_is_one_that_matplotlib_knows():
+def test_matplotlib_knows_the_style():
     with plt.rc_context():
         figures.use_style()
         assert plt.rcParams["axes.prop_cycle"].by_key()["color"][0] == "#0072B2"
+
+
+def test_each_experiment_is_drawn_if_names_coincide():
+    """Regression: curves were kept by names, and those of a second seed replaced those of the first."""
+    seeds = {safe.Experiment("safe", "maze1", seed=seed): runs(n, 4, range(n)) for seed, n in ((0, 1), (1, 3))}
+    _, (axes,) = figures.plot_success_curves(seeds)
+    assert [line.get_label() for line in axes.get_lines()] == ["safe (seed 0)", "safe (seed 1)"]
+    assert [line.get_ydata()[-1] for line in axes.get_lines()] == pytest.approx([25, 75])
+
+    mazes = [safe.Maze.from_drawing(drawing, "mine") for drawing in ("S.G", "G.S")]
+    results = {
+        safe.Experiment("safe", maze): runs(1, 1, a=[a], b=[1.0]) for maze, a in zip(mazes, (0.25, 0.5), strict=True)
+    }
+    _, panels = figures.plot_coefficients(results)
+    assert [axes.get_lines()[0].get_xdata().tolist() for axes in panels] == [[0.25], [0.5]]
+    _, success_panels = figures.plot_success(tables.success_table(results))
+    _, (maze_panels,) = figures.plot_mazes(mazes)
+    for drawn in (panels, success_panels, maze_panels):
+        titles = [axes.get_title() for axes in drawn]
+        assert len(set(titles)) == 2
+        assert all(title.startswith("mine (digest ") for title in titles)

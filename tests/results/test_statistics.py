@@ -1,4 +1,4 @@
-"""Statistics held against published worked examples, and against properties that they must have."""
+"""Statistics compared with published worked examples, and with properties that they must have."""
 
 import math
 
@@ -44,7 +44,7 @@ def test_equivalence_needs_enough_runs():
 
 
 @given(st.integers(1, 60), st.integers(1, 60), st.data())
-def test_a_difference_of_rates_turns_round_with_its_samples(n, m, data):
+def test_a_difference_of_rates_changes_sign_if_its_samples_are_swapped(n, m, data):
     first, second = (data.draw(st.integers(0, n)), n), (data.draw(st.integers(0, m)), m)
     there, back = statistics.compare_rates(*first, *second), statistics.compare_rates(*second, *first)
     assert (there.difference, there.low, there.high) == pytest.approx((-back.difference, -back.high, -back.low))
@@ -74,7 +74,7 @@ def test_means_are_compared_as_scipy_compares_the_samples():
     assert found.p_equivalence == pytest.approx(max(one_sided))
 
 
-def test_nothing_is_said_of_means_of_single_runs():
+def test_means_of_single_runs_are_not_compared():
     found = statistics.compare_means(3.0, 0.0, 1, 2.0, 1.0, 9)
     assert found.difference == 1
     assert math.isnan(found.p_value)
@@ -82,26 +82,26 @@ def test_nothing_is_said_of_means_of_single_runs():
     assert math.isnan(statistics.compare_means(3.0, 0.0, 5, 2.0, 0.0, 9).p_equivalence)
 
 
-def test_how_many_runs_it_takes():
-    n = statistics.runs_to_tell(0.5, 0.6)
+def test_how_many_runs_are_needed():
+    n = statistics.runs_needed(0.5, 0.6)
     rng = np.random.default_rng(1)
     counts = rng.binomial(n, [[0.5], [0.6]], (2, 4000))
     h = 2 * np.abs(np.diff(np.arcsin(np.sqrt(counts / n)), axis=0))
     assert (h * math.sqrt(n / 2) > 1.96).mean() == pytest.approx(0.8, abs=0.02)
-    assert statistics.runs_to_tell(0.644, 0.656) > 50 * n
+    assert statistics.runs_needed(0.644, 0.656) > 50 * n
 
 
-def test_arrivals_with_failures_censored():
+def test_a_success_curve_with_failures_censored():
     # one run is known only up to generation 1: of the three then left, one succeeds in generation 2
     table = pd.DataFrame({"success": [True, False, True, False, False], "generation": [0, 1, 2, 9, 9]})
-    found = statistics.arrivals(table)
+    found = statistics.success_curve(table)
     assert found.generation.tolist() == [0, 2]
     assert found.share.tolist() == pytest.approx([1 / 5, 1 - (4 / 5) * (2 / 3)])
     assert ((found.low < found.share) & (found.share < found.high)).all()
-    assert statistics.arrivals(runs(0, 3)).empty
+    assert statistics.success_curve(runs(0, 3)).empty
 
 
-def test_times_are_compared_with_failures_last():
+def test_times_are_compared_with_failures_as_the_slowest():
     quick, slow, never = runs(2, 2, [1, 2]), runs(2, 4, [5, 6]), runs(0, 3)
     assert statistics.compare_times(quick, slow)[0] == 1
     assert statistics.compare_times(slow, quick)[0] == 0

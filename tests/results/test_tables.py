@@ -5,6 +5,7 @@ import pandas as pd
 import pytest
 
 import safe
+from safe.companion.paper import reported
 from safe.experiments.experiment import WEIGHT_COLUMNS as WEIGHTS
 from safe.results import tables
 
@@ -14,25 +15,6 @@ def runs(successes, n, generations=(), **columns):
     generation = np.full(n, 499)
     generation[: len(generations)] = generations
     return pd.DataFrame({"run": np.arange(n), "success": success, "generation": generation, **columns})
-
-
-def test_the_papers_numbers_come_along():
-    paper = tables.published()
-    assert paper.table.value_counts().to_dict() == {"3": 32, "2": 12, "1": 11, "text": 6}
-    assert set(paper.maze.dropna()) == {"maze1", "maze2"}
-    assert paper[paper.quantity.str.startswith("weight of")].groupby("maze").size().tolist() == [16, 16]
-
-
-def test_parameters_beside_the_papers():
-    table = tables.parameter_table(safe.Parameters(k=7, crossover=0.25))
-    assert table.index.tolist() == list(vars(safe.Parameters()))
-    assert table.loc["k"].tolist() == ["nearest neighbours that count for novelty", "7", "15"]
-    assert table.loc["crossover", ["value", "in the paper"]].tolist() == ["0.25", "0.8"]
-
-
-def test_the_default_parameters_are_the_papers():
-    table = tables.parameter_table()
-    assert (table["value"] == table["in the paper"]).all()
 
 
 def experiment(maze, algorithm, **options):
@@ -50,7 +32,7 @@ def some_results():
 
 
 def test_a_table_beside_the_papers():
-    table = tables.success_table(some_results())
+    table = tables.success_table(some_results(), reported)
     ours = table.loc["maze1", "safe"]
     assert (ours.successes, ours.runs, ours.paper_successes, ours.paper_runs) == (2, 4, 328, 500)
     assert ours.difference == pytest.approx(0.5 - 328 / 500)
@@ -65,7 +47,7 @@ def test_a_table_beside_the_papers():
     assert words.loc["my maze", "safe"].tolist() == ["4 of 4", "2.04 to 4", "–", "–", "–"]
 
 
-def test_two_algorithms_set_against_each_other():
+def test_two_algorithms_compared():
     table = tables.difference_table(
         {experiment("maze1", "safe"): runs(328, 500), experiment("maze1", "novelty"): runs(322, 500)}, "safe", "novelty"
     )
@@ -73,7 +55,7 @@ def test_two_algorithms_set_against_each_other():
 
 
 def test_generations_to_success_beside_the_papers():
-    table = tables.generations_table(some_results())
+    table = tables.generations_table(some_results(), reported)
     assert table.index.tolist() == [("maze1", "safe"), ("maze1", "standard"), ("my maze", "safe")]
     ours = table.loc["maze1", "safe"]
     assert (ours["mean"], ours.sd, ours.n) == (15, 5, 2)
@@ -86,20 +68,6 @@ def test_generations_to_success_beside_the_papers():
     assert words.loc["my maze", "safe"].tolist() == [4, "2 (2)", "–", "–", "–"]
 
 
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"maze": safe.Maze.from_drawing("S.G", name="maze1")},
-        {"algorithm": safe.Algorithm("safe", objectives=[(1, 0)])},
-        {"parameters": safe.Parameters(k=14)},
-    ],
-)
-def test_what_is_only_called_like_the_papers_is_not_compared_with_it(change):
-    table = tables.success_table({safe.Experiment(**{"algorithm": "safe", "maze": "maze1", **change}): runs(2, 4)})
-    assert table.index.tolist() == [("maze1", "safe")]
-    assert np.isnan(table.paper_successes.iloc[0])
-
-
 def test_what_was_evolved_beside_the_papers():
     evolved = {"a": [0.8, 0.6, 0.0], "b": [1.0, 1.0, 0.0]} | {f"p{i}": [i / 100, i / 50, 9.0] for i in range(1, 17)}
     mine = safe.Maze.from_drawing("S.G", name="my maze")
@@ -110,6 +78,7 @@ def test_what_was_evolved_beside_the_papers():
             experiment("maze1", "fixed"): runs(2, 3, **evolved),
         },
         ["a", "b", *WEIGHTS],
+        reported,
     )
     a = table.loc["maze2", "a", "1 / distance"]
     assert (a["mean"], a.sd, a.n) == pytest.approx((0.7, 0.1, 2))
@@ -129,16 +98,8 @@ def test_what_was_evolved_beside_the_papers():
     assert words.loc["my maze", "a", "1 / distance"].tolist() == [2, "0.70 (0.10)", "–", "–", "–"]
 
 
-def test_the_papers_weights_are_named_as_ours():
-    paper = tables.published()
-    named = dict(zip(paper["item"], paper.quantity, strict=True))
-    table = tables.evolved_table({experiment("maze1", "safe"): runs(1, 1, **dict.fromkeys(WEIGHTS, 0))}, WEIGHTS)
-    for _, item, weighs in table.index:
-        assert named[item] == f"weight of {weighs}"
-
-
 def test_nothing_evolved():
-    table = tables.evolved_table({experiment("maze1", "safe"): runs(0, 2, a=1, b=1)}, ["a", "b"])
+    table = tables.evolved_table({experiment("maze1", "safe"): runs(0, 2, a=1, b=1)}, ["a", "b"], reported)
     words = tables.readable_means_table(table)
     assert words.iloc[0].tolist() == [0, "–", "0.85 (0.16)", "–", "–"]
 
@@ -150,3 +111,69 @@ def test_first_solutions_are_successes_in_order_and_then_the_nearest():
     assert list(tables.first_solutions(table, 1)) == list(table)
     with pytest.raises(ValueError, match="n must be an integer of at least 1; got 0"):
         tables.first_solutions(table, 0)
+
+
+def test_without_a_paper_its_columns_are_empty():
+    evolved = {experiment("maze1", "safe"): runs(2, 4, [10, 20], a=0.5)}
+    for table in (
+        tables.success_table(evolved),
+        tables.generations_table(evolved),
+        tables.evolved_table(evolved, ["a"]),
+    ):
+        assert table.filter(like="paper").isna().all(axis=None)
+        assert table[["difference", "p_value"]].isna().all(axis=None)
+
+
+def mazes_of_one_name():
+    mazes = [safe.Maze.from_drawing(drawing, "maze") for drawing in ("S.G", "G.S")]
+    return [experiment(maze, "safe") for maze in mazes], r"maze \(digest ......\)", "safe"
+
+
+def values_of_k():
+    values = [experiment("maze1", "safe", parameters=safe.Parameters(k=k)) for k in (5, 15, 30)]
+    return values, "maze1", r"safe \(k = \d+\)"
+
+
+def seeds():
+    return [experiment("maze1", "safe", seed=seed) for seed in (0, 1)], "maze1", r"safe \(seed [01]\)"
+
+
+@pytest.mark.parametrize("make", [mazes_of_one_name, values_of_k, seeds])
+def test_each_experiment_has_its_row(make):
+    """Regression: rows were kept by names, and an experiment replaced another of the same names."""
+    experiments, maze, algorithm = make()
+    results = {e: runs(n, 9, range(n), a=n / 10) for n, e in enumerate(experiments, start=1)}
+    numbers = list(range(1, len(experiments) + 1))
+
+    success = tables.success_table(results)
+    assert success.successes.tolist() == numbers
+    generations = tables.generations_table(results)
+    assert generations.n.tolist() == numbers
+    for table in (success, generations, tables.readable_success_table(success)):
+        assert table.index.is_unique
+        assert all(re.fullmatch(maze, m) and re.fullmatch(algorithm, a) for m, a in table.index)
+    evolved = tables.evolved_table(results, ["a"])
+    assert evolved.index.is_unique
+    assert evolved["mean"].tolist() == pytest.approx([n / 10 for n in numbers])
+
+    others = {experiment(e.maze, "novelty"): runs(9, 9, range(9)) for e in experiments}
+    both = results | others
+    difference = tables.difference_table(both, "safe", "novelty")
+    assert difference.index.is_unique
+    assert difference.safe.tolist() == [f"{n} of 9" for n in numbers]
+    times = tables.times_table(both, [("safe", "novelty")])
+    assert times.index.is_unique
+    assert [(first, second.algorithm.name) for first, second in tables.pairs(both, [("safe", "novelty")])] == [
+        (e, "novelty") for e in experiments
+    ]
+
+
+def test_times_compared():
+    results = {experiment("maze1", "safe"): runs(2, 2, [1, 2]), experiment("maze1", "novelty"): runs(2, 4, [5, 6])}
+    table = tables.times_table(results, [("safe", "novelty"), ("novelty", "safe"), ("safe", "random")])
+    assert table.index.tolist() == [("maze1", "safe", "novelty"), ("maze1", "novelty", "safe")]
+    assert table.A12.tolist() == ["1.00", "0.00"]
+    assert table.p.tolist() == ["0.018", "0.018"]
+    assert table["p (Holm)"].tolist() == ["0.035", "0.035"]
+    same = {experiment("maze1", name): runs(0, 2) for name in ("safe", "novelty")}
+    assert tables.times_table(same, [("safe", "novelty")]).iloc[0].tolist() == ["–"] * 3

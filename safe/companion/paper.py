@@ -1,0 +1,70 @@
+"""The paper's numbers, and the experiments that they belong to."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+
+import pandas as pd
+
+from safe.algorithms import ALGORITHMS, Parameters
+from safe.experiments.experiment import Experiment
+from safe.maze_files import is_packaged
+
+
+def published() -> pd.DataFrame:
+    """Every number of the paper: table, maze, item, quantity, mean (or the number itself), sd, n."""
+    return pd.read_csv(Path(__file__).with_name("published.csv"))
+
+
+def is_the_papers(experiment: Experiment) -> bool:
+    """Is this an experiment of the paper? Its maze, algorithm and parameters decide; a name alone does not."""
+    algorithm = experiment.algorithm
+    return (
+        is_packaged(experiment.maze)
+        and algorithm == ALGORITHMS.get(algorithm.name)
+        and experiment.parameters == Parameters()
+    )
+
+
+def reported(experiment: Experiment) -> pd.DataFrame:
+    """What the paper reports of an experiment, for tables to show beside ours; no row if it is not the paper's.
+
+    Returns
+    -------
+    pandas.DataFrame, one row for each quantity
+        mean, sd and n, indexed by "successes", "generations to success" and, for SAFE, a, b, p1..p16.
+
+    Examples
+    --------
+    >>> reported(Experiment("safe", "maze1")).loc["successes", ["mean", "n"]].tolist()
+    [328.0, 500.0]
+    >>> reported(Experiment("safe", "maze1", parameters=Parameters(k=3))).empty
+    True
+    """
+    maze, algorithm = experiment.maze, experiment.algorithm
+    numbers = published()
+    numbers = numbers[(numbers.maze == maze.name) & is_the_papers(experiment)]
+    counted = numbers[numbers["item"] == algorithm.name].set_index("quantity")
+    evolved = numbers[~numbers["item"].isin(ALGORITHMS) & (algorithm.name == "safe")].set_index("item")
+    return pd.concat([counted, evolved])[["mean", "sd", "n"]]
+
+
+def parameter_table(parameters: Parameters = Parameters()) -> pd.DataFrame:
+    """Parameters beside the paper's Table 1.
+
+    Returns
+    -------
+    pandas.DataFrame, one row for each parameter
+        meaning, value, in the paper.
+    """
+    table1 = published().query("table == '1'").set_index("item")
+    values = asdict(parameters)
+    return pd.DataFrame(
+        {
+            "meaning": table1.quantity.reindex(values),
+            "value": [f"{value:g}" for value in values.values()],
+            "in the paper": [f"{value:g}" for value in table1["mean"].reindex(values)],
+        },
+        index=pd.Index(values, name="parameter"),
+    )

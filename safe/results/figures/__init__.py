@@ -1,0 +1,36 @@
+"""Figures of mazes, paths, runs and results, which draw what they are given, and never run an experiment.
+
+Functions named `plot_...` return the figure and its axes: a single one, or an array of the panels, from left to right
+or, if there are several rows of them, row by row. `results` and `paper` are those of `safe.results.tables`.
+"""
+
+from safe.results.figures.mazes import (
+    draw_maze,
+    draw_path,
+    plot_mazes,
+    plot_neighbours,
+    plot_paths,
+    plot_sensors,
+)
+from safe.results.figures.runs import animate, plot_generation, plot_judging, plot_progress
+from safe.results.figures.samples import plot_coefficients, plot_success, plot_success_curves, plot_weights
+from safe.results.figures.style import STYLE, use_style
+
+__all__ = [
+    "STYLE",
+    "animate",
+    "draw_maze",
+    "draw_path",
+    "plot_coefficients",
+    "plot_generation",
+    "plot_judging",
+    "plot_mazes",
+    "plot_neighbours",
+    "plot_paths",
+    "plot_progress",
+    "plot_sensors",
+    "plot_success",
+    "plot_success_curves",
+    "plot_weights",
+    "use_style",
+]

@@ -1,0 +1,143 @@
+"""Figures of mazes: walls, paths, what a robot senses, neighbours in a grid."""
+
+from __future__ import annotations
+
+import string
+from collections.abc import Sequence
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+
+from safe.maze import Maze
+from safe.results.figures.style import FAINT, GOAL, PATH, START, WALL, legend_below, plain
+from safe.results.labels import maze_labels
+
+_DIRECTIONS = {"right": (0, 1), "left": (0, -1), "down": (1, 0), "up": (-1, 0)}  # rows down, columns right
+
+
+def draw_maze(axes: Axes, maze: Maze) -> None:
+    """Draw walls, start (a disc) and goal (a star); rows are counted downwards, and a cell is one unit wide."""
+    axes.imshow(maze.walls, cmap=ListedColormap(["white", WALL]), vmin=0, vmax=1, interpolation="none")
+    for (row, column), marker, size, colour, label in (
+        (maze.start, "o", 9, START, "start"),
+        (maze.goal, "*", 15, GOAL, "goal"),
+    ):
+        axes.plot(
+            column,
+            row,
+            marker,
+            markersize=size,
+            color=colour,
+            markeredgecolor="white",
+            zorder=4,
+            label=label,
+            linestyle="none",
+        )
+    axes.set(xticks=[], yticks=[], aspect="equal")
+    for spine in axes.spines.values():
+        spine.set_visible(False)
+
+
+def draw_path(axes: Axes, path: np.ndarray) -> None:
+    """Draw a path, array of int of shape (steps + 1, 2), as a line that ends in a square."""
+    axes.plot(path[:, 1], path[:, 0], color=PATH, label="path", zorder=2)
+    axes.plot(
+        path[-1, 1],
+        path[-1, 0],
+        "s",
+        markersize=7,
+        color=PATH,
+        markeredgecolor="white",
+        zorder=5,
+        label="end of the path",
+        linestyle="none",
+    )
+
+
+def plot_mazes(mazes: Sequence[Maze]) -> tuple[Figure, np.ndarray]:
+    """The mazes side by side, in axes of shape (1, number of mazes)."""
+    return plot_paths([[(maze, None, label) for maze, label in zip(mazes, maze_labels(mazes), strict=True)]])
+
+
+def plot_paths(rows: Sequence[Sequence[tuple[Maze, np.ndarray | None, str]]]) -> tuple[Figure, np.ndarray]:
+    """Rows of mazes, each with a path (or None) and a title; the axes have the shape (rows, mazes in the longest)."""
+    columns = max(len(row) for row in rows)
+    side = 4.2 if columns < 3 else 3.1
+    figure, grid = plt.subplots(
+        len(rows), columns, figsize=(side * columns, (side + 0.2) * len(rows) + 0.3), squeeze=False
+    )
+    for axes in grid.flat:
+        axes.set_axis_off()
+    for row, axes_row in zip(rows, grid, strict=True):
+        for (maze, path, title), axes in zip(row, axes_row, strict=False):
+            axes.set_axis_on()
+            draw_maze(axes, maze)
+            if path is not None:
+                draw_path(axes, path)
+            axes.set_title(plain(title))
+    legend_below(figure)
+    return figure, grid
+
+
+def plot_sensors(maze: Maze, cell: tuple[int, int], margin: int = 4) -> tuple[Figure, Axes]:
+    """What a robot in an open cell (row, column) senses: arrows to the first walls, and to the side of the goal.
+
+    The figure shows the part of the maze that the arrows reach, and `margin` cells around it.
+    """
+    readings = maze.readings(cell)
+    row, column = cell
+    figure, axes = plt.subplots(figsize=(7, 5))
+    draw_maze(axes, maze)
+    axes.plot(column, row, "D", markersize=11, color=PATH, markeredgecolor="white", zorder=5, linestyle="none")
+    reach = [(row, column)]
+    for direction, (down, right) in _DIRECTIONS.items():
+        cells = readings[f"dist_{direction}"]
+        end = row + down * cells, column + right * cells
+        reach.append(end)
+        axes.annotate("", end[::-1], (column, row), arrowprops={"arrowstyle": "-|>", "color": PATH, "lw": 1.8})
+        text = f"dist_{direction} = {cells:.0f}"
+        if readings[f"goal_{direction}"]:
+            text += f"\ngoal_{direction} = {readings[f'goal_{direction}']:.0f}"
+        axes.text(
+            (column + end[1]) / 2,
+            (row + end[0]) / 2,
+            text,
+            color=GOAL if readings[f"goal_{direction}"] else PATH,
+            ha="center",
+            va="center",
+            fontsize="small",
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5},
+            zorder=6,
+        )
+    rows, columns = np.array(reach).T
+    axes.set_xlim(columns.min() - margin, columns.max() + margin)
+    axes.set_ylim(rows.max() + margin, rows.min() - margin)
+    axes.set_title(plain(f"{maze.name}, the robot in row {row}, column {column}"))
+    return figure, axes
+
+
+def plot_neighbours(points: np.ndarray, neighbours: Sequence[Sequence[int]]) -> tuple[Figure, Axes]:
+    """Points (row, column), shape (n, 2), lettered from A, each joined along rows and columns with its neighbours.
+
+    Parameters
+    ----------
+    points : array of int, shape (n, 2)
+        Rows and columns.
+    neighbours : sequence of sequences of int
+        For each point the indices of its neighbours.
+    """
+    points = np.asarray(points)
+    figure, axes = plt.subplots(figsize=(5, 4))
+    for (row, column), near in zip(points, neighbours, strict=True):
+        for other_row, other_column in points[list(near)]:
+            axes.plot([column, other_column, other_column], [row, row, other_row], color=FAINT, linewidth=1, zorder=1)
+    axes.plot(points[:, 1], points[:, 0], "o", markersize=16, color=PATH, zorder=2)
+    for letter, (row, column) in zip(string.ascii_uppercase, points, strict=False):
+        axes.text(column, row, letter, color="white", ha="center", va="center", fontsize="small", zorder=3)
+    low, high = points.min(axis=0) - 1, points.max(axis=0) + 1
+    axes.set(xlim=(low[1], high[1]), ylim=(high[0], low[0]), aspect="equal", xlabel="column", ylabel="row")
+    axes.grid(alpha=0.3)
+    return figure, axes
