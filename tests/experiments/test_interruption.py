@@ -36,7 +36,8 @@ def uninterrupted():
 @pytest.fixture(scope="module")
 def processes():
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(["tests.helpers.killed"])
+    # the main program may be pytest's script: each process would import pytest first, and be killed before any run
+    context.set_forkserver_preload(["pytest", "tests.helpers.killed"])
     return context
 
 
@@ -103,16 +104,18 @@ def test_interrupted_in_a_notebook(tmp_path):
     try:
         store = tmp_path / "s.sqlite"
         long = f"safe.Experiment('safe', 'maze2', {EXPERIMENT.runs * 100}, 5, safe.Parameters(generations=20))"
-        client.execute(f"import safe; safe.run({long}, {str(store)!r})")
+        asked = client.execute(f"import safe; safe.run({long}, {str(store)!r})")
         deadline = time.monotonic() + 60
         while not (store.exists() and kept(store)):
             assert time.monotonic() < deadline
             time.sleep(0.05)
         manager.interrupt_kernel()
-        reply = client.get_shell_msg(timeout=10)["content"]
+        while (message := client.get_shell_msg(timeout=10))["parent_header"]["msg_id"] != asked:
+            pass  # a late answer to the client's greeting
     finally:
         client.stop_channels()
         manager.shutdown_kernel(now=True)
+    reply = message["content"]
     assert reply["ename"] == "KeyboardInterrupt"
     assert f"of {EXPERIMENT.runs * 100} runs are kept in {store}; run the experiment again" in "\n".join(
         reply["traceback"]
