@@ -48,7 +48,7 @@ Seed = int | Sequence[int] | np.random.SeedSequence
 
 @dataclass(frozen=True)
 class Run:
-    """The outcome of a run.
+    """The outcome of a run. Stores and tables of results take their columns from these fields, in this order.
 
     `controller` and `coefficients` belong to the best solution, the first with the smallest distance. In a successful
     run it is the one that succeeded.
