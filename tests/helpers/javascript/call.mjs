@@ -3,13 +3,22 @@
 
 import { shown } from "../../../safe/playground/javascript/checks.js";
 import {
-  NoveltyArchive, endpoints, evolve, generations, parseMaze, path,
+  endpoints,
+  evolve,
+  generations,
+  NoveltyArchive,
+  parseMaze,
+  path,
 } from "../../../safe/playground/javascript/engine.js";
 import { Evolution } from "../../../safe/playground/javascript/evolution.js";
-import { drawingOf, listOf, waysToGoal } from "../../../safe/playground/javascript/maze.js";
+import { drawingOf, waysToGoal } from "../../../safe/playground/javascript/maze.js";
+import { listOf } from "../../../safe/playground/javascript/maze_files.js";
 
 const FUNCTIONS = {
-  host: () => (globalThis.process ? `Node ${process.versions.node}` : `Chromium ${navigator.userAgent.match(/Chrom\w*\/(\d+)/)[1]}`),
+  host:
+    () => (globalThis.process
+      ? `Node ${process.versions.node}`
+      : `Chromium ${navigator.userAgent.match(/Chrom\w*\/(\d+)/)[1]}`),
   shown: ({ value }) => shown(value),
   parseMaze: ({ maze, name }) => parseMaze(maze, name),
   writtenMaze: ({ maze }) => {
