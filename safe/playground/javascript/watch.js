@@ -3,7 +3,7 @@
 import { make, makeAnnouncement, makeBlock, makeControls, makeLegend, prefersLessMotion } from "./dom.js";
 import { makeAlgorithmChoice, makeParameterFields, makeRunField, makeSeedField } from "./fields.js";
 import { Inspector } from "./inspector.js";
-import { titleOf } from "./labels.js";
+import { RunGroup } from "./run_group.js";
 import { RunPanel } from "./run_panel.js";
 import { SETTINGS } from "./store.js";
 import { Transport } from "./transport.js";
@@ -26,18 +26,17 @@ export class WatchView {
     this.store = store;
     this.problem = problem;
     this.makeWorker = makeWorker;
-    this.panels = [];
-    this.isStale = true; // do the panels show other settings than those of the state?
+    this.group = new RunGroup(); // the runs that are shown; whatever comes of an earlier group is dropped
+    this.isStale = true; // does the group have other settings than the state?
     this.isPlaying = false;
-    this.session = 0; // of the runs that are shown; whatever belongs to an earlier one is dropped
-    this.playedSession = null;
+    this.playedGroup = null;
     this.selection = null; // { panel, individual, inspection } of the robot that is looked at
 
     this.ondrive = (controller) => store.set({ controller, view: "drive" });
     this.transport = new Transport(store, problem, {
       onplay: () => (this.isPlaying ? this.pause() : this.#play()),
       onstep: () => this.#step(),
-      generationShown: () => Math.max(0, this.#generation),
+      generationShown: () => Math.max(0, this.group.generation),
     });
     this.announcement = makeAnnouncement();
     this.origin = make("p", { class: "note" });
@@ -65,7 +64,7 @@ export class WatchView {
   show(names) {
     const { state } = this.store;
     const isOther = names.some((name) => SETTINGS.includes(name));
-    const isElsewhere = names.includes("generation") && state.generation !== this.#generation;
+    const isElsewhere = names.includes("generation") && state.generation !== this.group.generation;
     if (isOther || isElsewhere) this.isStale = true;
     if (this.isStale && state.view === "watch") this.#open();
   }
@@ -76,17 +75,8 @@ export class WatchView {
   }
 
   destroy() {
-    this.session++;
-    for (const panel of this.panels) panel.destroy();
-  }
-
-  /** The number of the generation that is shown: the latest of all algorithms; -1 before there is one. */
-  get #generation() {
-    return Math.max(-1, ...this.panels.map(({ generation }) => generation));
-  }
-
-  get #isOver() {
-    return this.panels.every(({ latest }) => latest?.isOver);
+    this.group.destroy();
+    this.group = new RunGroup();
   }
 
   #setPlaying(isPlaying) {
@@ -96,25 +86,23 @@ export class WatchView {
 
   /** Begin the runs of the state, and go to its generation. */
   async #open() {
-    const { maze, algorithms, seed, parameters, generation } = this.store.state;
+    const { state } = this.store, { generation } = state;
     this.destroy();
     this.isStale = false;
-    this.#setPlaying(false);
+    this.pause();
     this.selection = null;
-    this.origin.textContent = originText(seed);
-    const { session } = this;
-    this.panels = algorithms.map((algorithm, i) => this.#makePanel(algorithm, i));
-    this.row.replaceChildren(...this.panels.map(({ element }) => element));
+    this.origin.textContent = originText(state.seed);
+    const group = new RunGroup(state.algorithms.map((algorithm, i) => this.#makePanel(algorithm, i)));
+    this.group = group;
+    this.row.replaceChildren(...group.panels.map(({ element }) => element));
     this.row.setAttribute("aria-busy", "true");
-    this.opening = Promise.all(this.panels.map((panel) => panel.start(maze, seed, parameters, generation)));
-    this.work = this.opening;
-    await this.#until(this.opening, session);
-    if (session !== this.session) return;
+    group.open(state);
+    if (!await this.#isDone(group.opening, group)) return;
     this.row.removeAttribute("aria-busy");
     this.announcement.textContent = "";
     this.#draw();
-    if (this.#isOver) this.#announceResults();
-    if (this.#generation !== generation) this.#keepGeneration(); // the run was over before
+    if (group.isOver) this.#announceResults();
+    if (group.generation !== generation) this.#keepGeneration(); // the run was over before
   }
 
   #makePanel(algorithm, i) {
@@ -122,93 +110,92 @@ export class WatchView {
     return new RunPanel(algorithm, this.makeWorker, { onpick, ondrive: this.ondrive });
   }
 
-  /** Wait for workers, and report what goes wrong in them. */
-  async #until(work, session) {
+  /** Wait for the workers of a group, and report what goes wrong. Are they done, and is the group still shown? */
+  async #isDone(work, group) {
     try {
       await work;
+      return group === this.group;
     } catch (error) {
-      if (session !== this.session) return;
-      this.session++;
-      this.pause();
-      this.problem.report(error);
+      if (group === this.group) {
+        this.pause();
+        this.problem.report(error);
+      }
+      return false;
     }
   }
 
   async #play() {
-    if (this.#isOver && this.#generation > 0) this.store.set({ generation: 0 });
-    const { session } = this;
+    if (this.group.isOver && this.group.generation > 0) this.store.set({ generation: 0 }); // which opens another group
+    const { group } = this;
     this.#setPlaying(true);
     this.announcement.textContent = "";
-    if (this.playedSession === session) return; // it was paused, and has not stopped yet
-    this.playedSession = session;
-    await this.#until(this.opening, session);
-    while (this.isPlaying && session === this.session && !this.#isOver) await this.#playFrame(session);
-    if (session !== this.session) return;
-    this.playedSession = null;
+    if (this.playedGroup === group) return; // it was paused, and has not stopped yet
+    this.playedGroup = group;
+    let isDone = await this.#isDone(group.opening, group);
+    while (isDone && this.isPlaying && !group.isOver) isDone = await this.#playFrame(group);
+    if (group !== this.group) return;
+    this.playedGroup = null;
     this.pause();
-    this.#finish();
+    if (isDone) this.#finish();
   }
 
   /** Make as many generations as the speed asks for until the next picture, or fewer if there is no time for them. */
-  async #playFrame(session) {
+  async #playFrame(group) {
     const { speed } = this.transport;
     const frame = Math.max(prefersLessMotion() ? CALM_FRAME : FRAME, 1000 / speed);
     const begun = performance.now();
-    await this.#advance(Math.max(1, Math.round((speed * frame) / 1000)), frame, session);
+    const isDone = await this.#advance(group, Math.max(1, Math.round((speed * frame) / 1000)), frame);
     await new Promise((resolve) => setTimeout(resolve, Math.max(0, frame - (performance.now() - begun))));
+    return isDone && group === this.group;
   }
 
   async #step() {
     this.pause();
-    const { session } = this;
-    await this.#until(this.opening, session);
-    if (session !== this.session) return;
-    await this.#advance(1, Infinity, session);
-    this.#finish();
+    const { group } = this;
+    const isReady = await this.#isDone(group.opening, group);
+    if (isReady && await this.#advance(group, 1, Infinity)) this.#finish();
   }
 
-  async #advance(generations, milliseconds, session) {
-    this.work = Promise.all(this.panels.map((panel) => panel.advance(generations, milliseconds)));
-    await this.#until(this.work, session);
-    if (session !== this.session) return;
+  /** Make further generations and show the last. Are they made, and is the group still shown? */
+  async #advance(group, generations, milliseconds) {
+    group.advance(generations, milliseconds);
+    if (!await this.#isDone(group.work, group)) return false;
     this.selection = null;
     this.#draw();
+    return true;
   }
 
   #finish() {
-    if (this.#isOver) this.#announceResults();
+    if (this.group.isOver) this.#announceResults();
     this.#keepGeneration();
   }
 
   /** The generation that is reached becomes part of the state. */
   #keepGeneration() {
-    this.store.set({ generation: this.#generation });
+    this.store.set({ generation: this.group.generation });
   }
 
   #announceResults() {
-    const results = this.panels.map(({ algorithm, status }) => `${titleOf(algorithm)}: ${status.textContent}`);
-    this.announcement.textContent = results.join(" ");
-    this.store.set({ result: this.panels[0].latest.result });
+    this.announcement.textContent = this.group.summary;
+    this.store.set({ result: this.group.panels[0].latest.result });
   }
 
   /** Select a robot of the i-th algorithm: the one that `pick` finds in its panel once all workers rest. */
   async #select(i, pick) {
     this.pause();
-    const panel = this.panels[i], { session } = this;
-    await this.#until(this.work, session);
-    if (session !== this.session) return;
+    const { group } = this, panel = group.panels[i];
+    if (!await this.#isDone(group.work, group)) return;
     const individual = pick(panel);
     const inspecting = panel.inspect(individual).then((inspection) => {
       this.selection = { panel, individual, inspection };
     });
-    await this.#until(inspecting, session);
-    if (session === this.session) this.#draw();
+    if (await this.#isDone(inspecting, group)) this.#draw();
   }
 
   #draw() {
-    const { panels, selection } = this;
+    const { selection, group: { panels, generation } } = this;
     for (const panel of panels) panel.show(panel === selection?.panel ? selection.inspection : null);
-    this.transport.showGeneration(this.#generation);
+    this.transport.showGeneration(generation);
     this.charts.show(panels, selection);
     this.inspector.show(panels, selection);
   }
