@@ -31,9 +31,7 @@ export function readAddress(text) {
     else throw new InputError(`an address must hold known keys; got ${shown(key)}`);
   }
   if (state.algorithms?.length > MOST_ALGORITHMS) {
-    throw new InputError(
-      `an address may hold ${MOST_ALGORITHMS} algorithms at the most; got ${state.algorithms.length}`,
-    );
+    throw new InputError(`an address must hold at most ${MOST_ALGORITHMS} algorithms; got ${state.algorithms.length}`);
   }
   if (Object.keys(parameters).length > 0) {
     checkedParameters(parameters);
