@@ -85,7 +85,7 @@ export function makeLegend(entries) {
   return make("ul", { class: "legend" }, ...items);
 }
 
-const MODULE_ID = Math.random().toString(36).slice(2); // each widget of a notebook loads this module anew
+const MODULE_ID = Math.random().toString(36).slice(2); // each widget of a notebook loads this module again
 let serial = 0;
 
 /** An id that no other element has. */

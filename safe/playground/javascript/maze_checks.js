@@ -24,7 +24,7 @@ export function describeMaze(maze) {
   ];
 }
 
-/** Lines on a draft that is no maze, likewise. */
+/** Lines on a draft that is not a maze, likewise. */
 export function describeError(error) {
   return [
     ["bad", `Not a maze yet: ${error.message}.`],

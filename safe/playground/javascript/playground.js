@@ -74,7 +74,7 @@ export function mount(element, { state = {}, makeWorker, onChange = () => {}, ad
   };
 }
 
-/** The views by name. Each has an `element`, and can be shown anew after changes of the state, paused and destroyed. */
+/** The views by name. Each has an `element`, `show(names of what has changed in the state)`, `pause()` and `destroy()`. */
 function makeViews(shared) {
   return {
     watch: new WatchView(shared),

@@ -22,7 +22,7 @@ export class PresetChoice {
     this.explanation = make("p", { class: "note", role: "status" });
   }
 
-  /** The weights or the maze are others now: explain nothing, and stop what is being evolved. */
+  /** The weights or the maze have changed: explain nothing, and stop what is being evolved. */
   forget() {
     this.client?.close();
     this.client = null;

@@ -24,7 +24,7 @@ export const PRESETS = [
   {
     title: "the best of a run of SAFE on this maze",
     explanation: "It was evolved just now, in this page: the best controller of one run.",
-    run: ({ name }) => ({ algorithm: "safe", seed: name === "maze2" ? 22 : 32 }), // on the paper's mazes a success
+    run: ({ name }) => ({ algorithm: "safe", seed: name === "maze2" ? 22 : 32 }), // these succeed on the paper's mazes
   },
   {
     title: "all zero",

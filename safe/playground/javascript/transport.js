@@ -7,13 +7,12 @@ import { makeStateInput } from "./fields.js";
 const SPEEDS = [1, 2, 5, 10, 30, 100, Infinity]; // generations a second
 
 export class Transport {
-  /** onplay, onstep: called when the reader plays or pauses, or asks for one generation. generationShown: gives its
-   * number. */
-  constructor(store, problem, { onplay, onstep, generationShown }) {
+  /** onplay: called when the reader plays or pauses. onstep: called when the reader asks for one generation. */
+  constructor(store, problem, { onplay, onstep }) {
     this.playButton = makeButton("Play", onplay, { class: "primary" });
     this.generation = makeStateInput(store, problem, { type: "number", min: 0, step: 1 }, {
       name: "generation",
-      read: generationShown,
+      read: () => store.state.generation,
       write: (generation) => store.set({ generation: checkedInteger("generation", generation, 0, MOST) }),
     });
     this.speedText = make("output");

@@ -36,7 +36,6 @@ export class WatchView {
     this.transport = new Transport(store, problem, {
       onplay: () => (this.isPlaying ? this.pause() : this.#play()),
       onstep: () => this.#step(),
-      generationShown: () => Math.max(0, this.group.generation),
     });
     this.announcement = makeAnnouncement();
     this.origin = make("p", { class: "note" });
