@@ -3,7 +3,7 @@
 import { ALGORITHMS, checkedAlgorithm, checkedParameters, PARAMETERS, RATINGS } from "./algorithms.js";
 import { checkedChoice, checkedInteger, checkedRow, InputError, MOST, shown } from "./checks.js";
 import { LONGEST_SIDE, makeMaze } from "./maze.js";
-import { isNamed, namedMaze } from "./mazes.js";
+import { isNamed, namedMaze } from "./named_mazes.js";
 import { checkedSeed } from "./random.js";
 import { WEIGHTS } from "./robot.js";
 

@@ -1,7 +1,7 @@
 // The choice among the mazes that the playground brings along, and the reader's own.
 
 import { makeSelect } from "./dom.js";
-import { isNamed, MAZES, namedMaze } from "./mazes.js";
+import { isNamed, MAZES, namedMaze } from "./named_mazes.js";
 
 const DRAWN = "drawn"; // stands for a maze that is not one of MAZES
 

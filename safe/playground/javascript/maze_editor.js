@@ -1,7 +1,7 @@
 // The canvas on which a maze is drawn, with mouse, touch or keyboard.
 
-import { applyTool, contentOf, copyOf, DraftHistory } from "./draft.js";
 import { make } from "./dom.js";
+import { applyTool, contentOf, copyOf, DraftHistory } from "./draft.js";
 import { MazeView } from "./maze_view.js";
 
 const MOVES = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] };

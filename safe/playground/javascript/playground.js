@@ -1,17 +1,23 @@
 // The playground: SAFE to see and to play with, in a page of the book or in a notebook.
+//
+// engine.js and what it exports are the science, as in the package. worker.js runs it beside the page, which asks by way
+// of worker_client.js. The page is made here: of a state (state.js, in store.js), which its address holds (address.js,
+// page_address.js), and of a view for each tab (tabs.js): watch_view.js, drive_view.js, draw_view.js and runs_view.js,
+// each with its parts in files of their own. bundle.py makes one script of all these modules, and says in what forms they
+// may import and export.
 
 import { readAddress } from "./address.js";
 import { labelled, make } from "./dom.js";
-import { DrawView } from "./draw.js";
-import { DriveView } from "./drive.js";
+import { DrawView } from "./draw_view.js";
+import { DriveView } from "./drive_view.js";
 import { makeMazeChoice } from "./maze_choice.js";
 import { PageAddress } from "./page_address.js";
 import { Problem } from "./problem.js";
-import { RunsView } from "./runs.js";
+import { RunsView } from "./runs_view.js";
 import { defaultState, fromOutside, openingState, toOutside } from "./state.js";
 import { SETTINGS, Store } from "./store.js";
 import { Tabs } from "./tabs.js";
-import { WatchView } from "./watch.js";
+import { WatchView } from "./watch_view.js";
 
 const WELCOME =
   "200 robots start at the ring and walk 300 steps each. A green dot is where one of them ended, a faint one where an " +

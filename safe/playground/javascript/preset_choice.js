@@ -1,9 +1,9 @@
 // The choice of weights to start from, with an explanation.
 
-import { Client } from "./client.js";
 import { make, makeSelect } from "./dom.js";
 import { PRESETS } from "./presets.js";
 import { WEIGHTS } from "./robot.js";
+import { WorkerClient } from "./worker_client.js";
 
 const RANDOM = "random";
 
@@ -44,7 +44,7 @@ export class PresetChoice {
     const { maze } = this.store.state;
     this.forget();
     this.explanation.textContent = "Evolving …";
-    this.client = new Client(this.makeWorker);
+    this.client = new WorkerClient(this.makeWorker);
     const result = await this.client.ask("evolve", { maze, parameters: {}, ...run(maze) });
     return result.controller;
   }

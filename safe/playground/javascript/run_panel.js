@@ -1,11 +1,11 @@
 // One run on the watch: the maze with its generation, and how far it has come.
 
-import { Client } from "./client.js";
 import { make, makeButton } from "./dom.js";
 import { kindOf, makeSwatch, summaryOf, titleOf } from "./labels.js";
 import { distanceBetween } from "./maze.js";
 import { MazeView } from "./maze_view.js";
 import { cellsText, shortNumber } from "./text.js";
+import { WorkerClient } from "./worker_client.js";
 
 const MOST_LINKS = 100; // to neighbours that are drawn
 const SLICE = 200; // milliseconds of computing on the way to a generation, after which the panel says how far it is
@@ -14,7 +14,7 @@ export class RunPanel {
   /** onpick: called with the { row, column } that is clicked; ondrive: with the best controller, to be driven. */
   constructor(algorithm, makeWorker, { onpick, ondrive }) {
     this.algorithm = algorithm;
-    this.client = new Client(makeWorker);
+    this.client = new WorkerClient(makeWorker);
     this.history = []; // a line for each generation; see worker.js, also for the next one
     this.latest = null; // the last generation
     this.trail = []; // where the best robot so far ended, from the first generation to this

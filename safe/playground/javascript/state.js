@@ -4,7 +4,7 @@ import { readController, readSeed, writeSeed } from "./address.js";
 import { ALGORITHMS } from "./algorithms.js";
 import { drawingOf } from "./maze.js";
 import { parseMaze } from "./maze_files.js";
-import { namedMaze, recognised } from "./mazes.js";
+import { namedMaze, recognised } from "./named_mazes.js";
 import { PRESETS } from "./presets.js";
 
 /** The state if an address names none of it. */

@@ -5,7 +5,7 @@ import { makeMaze } from "./maze.js";
 import { describeError, describeMaze, makeLines } from "./maze_checks.js";
 import { MazeEditor } from "./maze_editor.js";
 import { makeEmptyMazeForm, makeLoadFields, makeSaveButtons, makeTextArea } from "./maze_forms.js";
-import { recognised } from "./mazes.js";
+import { recognised } from "./named_mazes.js";
 
 const TOOLS = [
   ["wall", "Wall"],

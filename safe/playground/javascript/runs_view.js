@@ -3,13 +3,13 @@
 import { MOST_RUNS, nthSeed } from "./address.js";
 import { LineChart } from "./chart.js";
 import { checkedInteger } from "./checks.js";
-import { Client } from "./client.js";
 import { labelled, make, makeAnnouncement, makeBlock, makeButton, makeControls } from "./dom.js";
 import { makeAlgorithmChoice, makeParameterFields, makeSeedField, makeStateInput } from "./fields.js";
 import { kindOf, titleOf } from "./labels.js";
 import { OutcomeTable } from "./outcome_table.js";
 import { SETTINGS } from "./store.js";
 import { compareTallies, tally } from "./tally.js";
+import { WorkerClient } from "./worker_client.js";
 
 const MOST_WORKERS = 8;
 const NOTE =
@@ -88,7 +88,7 @@ export class RunsView {
     if (queue.length === 0) return;
     const { session } = this;
     const workers = Math.min(MOST_WORKERS, navigator.hardwareConcurrency || 2, queue.length);
-    this.clients = Array.from({ length: workers }, () => new Client(this.makeWorker));
+    this.clients = Array.from({ length: workers }, () => new WorkerClient(this.makeWorker));
     this.button.textContent = "Stop";
     try {
       await Promise.all(this.clients.map((client) => this.#work(client, queue, session)));

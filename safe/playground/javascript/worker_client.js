@@ -1,6 +1,6 @@
 // A worker, as a page sees it (see worker.js).
 
-export class Client {
+export class WorkerClient {
   constructor(makeWorker) {
     this.waiting = new Map(); // by the number of a message, who waits for its answer
     this.sent = 0;
