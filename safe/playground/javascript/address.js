@@ -74,7 +74,7 @@ export function writeSeed({ entropy, spawnKey }) {
     .join("/");
 }
 
-/** The n-th of the seeds that begin with this one: the n-th run of the same experiment, or the n-th integer after it. */
+/** The n-th of the seeds that begin with this one: the n-th run of the experiment, or the n-th integer after it. */
 export function nthSeed({ entropy, spawnKey }, n) {
   if (spawnKey.length > 0) return { entropy, spawnKey: [...spawnKey.slice(0, -1), BigInt(n)] };
   return { entropy: [...entropy.slice(0, -1), entropy.at(-1) + BigInt(n)], spawnKey };

@@ -16,7 +16,7 @@ export function contentOf({ walls, width, start, goal }, [row, column]) {
   return isAt(start) ? "start" : isAt(goal) ? "goal" : walls[row * width + column] ? "wall" : "open";
 }
 
-/** Apply a tool to a cell of a draft: "wall" and "open" to all cells under the brush, "start" and "goal" to it alone. */
+/** Apply a tool to a draft: "wall" and "open" to all cells under the brush, "start" and "goal" to this cell alone. */
 export function applyTool(draft, tool, brush, { row, column }) {
   const { height, width, walls } = draft;
   const isFree = (r, c) =>

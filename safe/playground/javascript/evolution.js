@@ -186,7 +186,7 @@ export function evolve(maze, algorithm, seed, parameters = {}) {
   return evolution.result();
 }
 
-/** The same run, one generation at a time; as safe.generations. Arguments are checked at once, not at the first step. */
+/** One run, generation by generation; as safe.generations. Arguments are checked at once, not at the first step. */
 export function generations(maze, algorithm, seed, parameters = {}) {
   return eachGeneration(new Evolution(maze, algorithm, seed, parameters));
 }

@@ -60,7 +60,7 @@ export function drawingOf({ walls, height, width, start, goal }, symbols = ".#SG
   return rows.join("\n");
 }
 
-/** The length of the shortest way from each cell to the goal through open cells, along rows and columns; -1 without one. */
+/** The length of the shortest way from each cell to the goal, along rows and columns of open cells; -1 without one. */
 export function waysToGoal({ walls, height, width, goal }) {
   const ways = new Int32Array(height * width).fill(-1);
   const first = goal[0] * width + goal[1];

@@ -110,9 +110,9 @@ export class Archive {
 
 // There are two ways to find the nearest neighbours, and both are exact.
 //
-// End points are cells of a maze, so taxicab distances are whole numbers and many points share a cell. `scoreCells` keeps
-// count of the points in every cell, and adds the counts up ring by ring around a point until it has k neighbours. If
-// they are farther away than the rings reach, as in a large and empty maze, it measures the distance to every point.
+// End points are cells of a maze, so taxicab distances are whole numbers and many points share a cell. `scoreCells`
+// counts the points in every cell, and adds the counts up ring by ring around a point until it has k neighbours. If they
+// are farther away than the rings reach, as in a large and empty maze, it measures the distance to every point.
 //
 // `scorePoints` serves any points, and measures all distances.
 
@@ -130,7 +130,7 @@ export class Occupancy {
     return (RINGS + cells[2 * i]) * this.width + RINGS + cells[2 * i + 1];
   }
 
-  /** The summed distances from a place to the `wanted` nearest other points; -1 if they are not all within the rings. */
+  /** The summed distances from a place to the `wanted` nearest other points; -1 if not all are within the rings. */
   sumOverRings(place, wanted) {
     const { counts, width } = this;
     let found = counts[place] - 1; // without the point itself

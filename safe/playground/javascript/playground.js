@@ -1,10 +1,9 @@
 // The playground: SAFE to see and to play with, in a page of the book or in a notebook.
 //
-// engine.js and what it exports are the science, as in the package. worker.js runs it beside the page, which asks by way
-// of worker_client.js. The page is made here: of a state (state.js, in store.js), which its address holds (address.js,
-// page_address.js), and of a view for each tab (tabs.js): watch_view.js, drive_view.js, draw_view.js and runs_view.js,
-// each with its parts in files of their own. bundle.py makes one script of all these modules, and says in what forms they
-// may import and export.
+// engine.js and what it exports are the science, as in the package. worker.js runs it beside the page, which asks it by
+// way of worker_client.js. The page has a state (state.js, kept in store.js), which is also in its address (address.js,
+// page_address.js), and a view for each tab (tabs.js): watch_view.js, drive_view.js, draw_view.js and runs_view.js, whose
+// parts have files of their own. bundle.py makes one script of all modules, and says how they may import and export.
 
 import { readAddress } from "./address.js";
 import { labelled, make } from "./dom.js";
@@ -20,9 +19,9 @@ import { Tabs } from "./tabs.js";
 import { WatchView } from "./watch_view.js";
 
 const WELCOME =
-  "200 robots start at the ring and walk 300 steps each. A green dot is where one of them ended, a faint one where an " +
-  "earlier one did. The star is the goal: a robot that ends within 2 cells of it is a success. The fittest breed the " +
-  "next generation, and soon one will succeed: press Play.";
+  "200 robots start at the ring and walk 300 steps each. A green dot is where one of them ended, a faint one where " +
+  "an earlier one did. The star is the goal: a robot that ends within 2 cells of it is a success. The fittest breed " +
+  "the next generation, and soon one will succeed: press Play.";
 
 /** Put a playground into an element.
  *
@@ -80,7 +79,7 @@ export function mount(element, { state = {}, makeWorker, onChange = () => {}, ad
   };
 }
 
-/** The views by name. Each has an `element`, `show(names of what has changed in the state)`, `pause()` and `destroy()`. */
+/** The views by name. Each has an `element`, `show(names of what has changed)`, `pause()` and `destroy()`. */
 function makeViews(shared) {
   return {
     watch: new WatchView(shared),

@@ -11,7 +11,7 @@ const TWO_TO_32 = 4294967296;
 
 /** A stream of uniform numbers.
  *
- * seed: a non-negative integer (number or BigInt), an array of them, or { entropy: one of these, spawnKey: [integers] },
+ * seed: a non-negative integer (number or BigInt), an array of them, or { entropy: one of these, spawnKey: integers },
  * as numpy.random.SeedSequence takes them. */
 export class Sfc64 {
   constructor(seed) {

@@ -17,7 +17,7 @@ export class WatchCharts {
     this.element = make("div", { class: "charts" }, ...charts.map(({ element }) => element));
   }
 
-  /** Show the runs of some panels; of the selected solution (see Inspector), mark the objective function that judged. */
+  /** Show the runs of some panels, and mark the objective function that judged the selected robot (see Inspector). */
   show(panels, selection) {
     for (const [key, chart] of Object.entries(this.lines)) {
       chart.show(panels.map((panel) => seriesOf(panel, key)).filter(({ points }) => points.length > 0));

@@ -1,5 +1,5 @@
-// The playground as a widget of Jupyter (see safe/playground/widget.py). What the reader changes goes to the kernel, and
-// what the kernel sets is shown. A widget may be shown several times; what is changed in one view changes in the others.
+// The playground as a widget of Jupyter (see safe/playground/widget.py). What the reader changes goes to the kernel,
+// and what the kernel sets is shown. A widget may be shown several times, and then shows the same everywhere.
 
 import { mount } from "./playground.js";
 
