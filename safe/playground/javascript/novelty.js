@@ -111,8 +111,8 @@ export class Archive {
 // There are two ways to find the nearest neighbours, and both are exact.
 //
 // End points are cells of a maze, so taxicab distances are whole numbers and many points share a cell. `scoreCells`
-// counts the points in every cell, and adds the counts up ring by ring around a point until it has k neighbours. If they
-// are farther away than the rings reach, as in a large and empty maze, it measures the distance to every point.
+// counts the points in every cell, and adds the counts up ring by ring around a point until it has k neighbours. If
+// these lie beyond the rings, as in a large and empty maze, it measures the distance to every point.
 //
 // `scorePoints` serves any points, and measures all distances.
 

@@ -14,9 +14,9 @@ import { WorkerClient } from "./worker_client.js";
 const MOST_WORKERS = 8;
 const NOTE =
   "The first run has the seed above, the next one the seed after it, and so on. A run is counted once all before it " +
-  "are over: failures take longest, and would otherwise be counted too late. Intervals are Wilson's. If you look after " +
-  "every run and stop when they part, you will find differences that are not there: decide first how many runs to " +
-  "make.";
+  "are over: failures take longest, and would otherwise be counted too late. Intervals are Wilson's. If you look " +
+  "after every run and stop when they part, you will find differences that are not there: decide first how many runs " +
+  "to make.";
 
 export class RunsView {
   constructor({ store, problem, makeWorker }) {
