@@ -7,6 +7,7 @@ CASES ?= 100000
 
 BIN := .venv/bin
 INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
+DENO := DENO_NO_UPDATE_CHECK=1 $(BIN)/deno
 BUILD := $(BIN)/jupyter-book build . --toc book/_toc.yml --quiet --warningiserror --keep-going --nitpick
 BOUNDS_CHECKED := NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.numba-boundscheck
 KERNEL_TESTS := tests/test_robot.py tests/test_neighbours.py tests/test_novelty.py tests/test_operators.py tests/test_evolution.py
@@ -33,6 +34,8 @@ pdf: execute ## the book as a PDF, by xelatex (what to install: see CONTRIBUTING
 test: .venv/installed-for-tests ## everything from nothing: environment, the tests
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
+	$(DENO) fmt --check
+	$(DENO) lint
 	$(BIN)/pytest
 	$(BOUNDS_CHECKED) $(BIN)/pytest $(KERNEL_TESTS)
 
@@ -49,6 +52,8 @@ bench: .venv/installed-for-tests ## time the parts, the paper's experiments and 
 format: .venv/installed-for-tests ## bring the code into its form
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
+	$(DENO) fmt
+	$(DENO) lint --fix
 
 picture: env ## draw the picture of the README anew
 	$(BIN)/python book/picture.py

@@ -3,15 +3,18 @@
 That is in pages opened as files, in widgets, and in workers made of a text. The modules of the folder `javascript`
 keep to a few forms, so that this takes no parser: a line begins with `import { a, b } from "./x.js";`, with `export`
 before a function, const or class, or with `export { a, b } from "./x.js";`; and no two modules declare the same name at
-the beginning of a line.
+the beginning of a line. One module is not in the folder: `packaged_mazes.js` is written here, from the package's mazes.
 """
 
 from __future__ import annotations
 
+import json
 import re
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from typing import NamedTuple
+
+from safe.maze_files import MAZE_FOLDER, maze_names
 
 FOLDER = Path(__file__).with_name("javascript")
 ENTRIES = ("playground.js", "worker.js")  # export `mount`, which shows the playground, and `serve`, for its workers
@@ -23,7 +26,7 @@ _DECLARATION = re.compile(
 _COMMENT = re.compile(r"^[^\S\n]*(?://.*|/\*\*(?:(?!\*/).|\n)*\*/)\n", re.MULTILINE)  # on lines of its own
 _OTHER_FORM = re.compile(r"^(?:import|export)\b.*|(?<![\w$.#])import\s*(?:\(|\.\s*meta\b).*", re.MULTILINE)
 
-# A worker is made of the text of the very function that makes it: no address need be known.
+# A worker is made from the text of the very function that makes it, so that it needs no address.
 _BUNDLE = """\
 function playground() {{
 "use strict";
@@ -55,8 +58,8 @@ def script(entries: tuple[str, ...] = ENTRIES, folder: Path = FOLDER) -> str:
     Raises
     ------
     ValueError
-        Where a module is missing, is written in another form, imports what is not exported, or imports itself by way
-        of others, or where two declare the same name.
+        If a module is missing, is written in another form, imports what is not exported, or imports itself by way of
+        others, or if two declare the same name.
     """
     modules = _read_modules(folder, entries)
     declared_in: dict[str, str] = {}
@@ -93,12 +96,18 @@ def _read_modules(folder: Path, entries: tuple[str, ...]) -> dict[str, _Module]:
         if file in modules:
             continue
         try:
-            text = (folder / file).read_text(encoding="utf-8")
+            text = _packaged_mazes() if file == "packaged_mazes.js" else (folder / file).read_text(encoding="utf-8")
         except OSError as error:
             raise ValueError(f"{importer} must import a module in {folder}; got {file} ({error.strerror})") from None
         modules[file] = _parse(text, file)
         wanted += [(other, file) for other, _ in modules[file].imports]
     return modules
+
+
+def _packaged_mazes() -> str:
+    """The module that holds the texts of the package's mazes by their names."""
+    texts = {name: (MAZE_FOLDER / f"{name}.maze").read_text(encoding="utf-8") for name in maze_names()}
+    return f"export const PACKAGED_MAZES = {json.dumps(texts)};\n"
 
 
 def _parse(text: str, file: str) -> _Module:
@@ -114,5 +123,5 @@ def _parse(text: str, file: str) -> _Module:
     body = _DECLARATION.sub(r"\2\3", body)
     if other_form := _OTHER_FORM.search(body):
         raise ValueError(f"{file} must import and export as {Path(__file__).name} reads it; got {other_form.group()!r}")
-    body = re.sub(r"\n{2,}", "\n", _COMMENT.sub("", body))  # whoever reads it reads the modules; a page loads it
+    body = re.sub(r"\n{2,}", "\n", _COMMENT.sub("", body))  # for a page to load; to read, there are the modules
     return _Module(imports, exports, [name for *_, name in declarations], body)

@@ -1,4 +1,4 @@
-"""The playground as the book carries it: one script of one page, and pictures where its widget stands."""
+"""The playground in the book: a script that one page loads, and pictures in place of its widget."""
 
 import json
 
@@ -7,7 +7,7 @@ from tests.book.conftest import execute, output_of
 from tests.helpers.browser import complaints_of, needs_browser
 
 
-def test_its_page_alone_loads_it(html):
+def test_only_its_page_loads_it(html):
     for file in ("bundle.js", "playground.css"):
         loaded_by = [page for page in html.rglob("*.html") if f"_static/playground/{file}" in page.read_text()]
         assert loaded_by == [html / "book" / "playground.html"]
@@ -17,7 +17,7 @@ def test_its_page_alone_loads_it(html):
 @needs_browser
 def test_it_works_in_a_page_opened_as_a_file(browser, html):
     page = browser.new_page()
-    complaints = complaints_of(page, (html.as_uri(), "blob:", "data:"), logged=())  # files are given no fonts
+    complaints = complaints_of(page, (html.as_uri(), "blob:", "data:"), logged=())  # no fonts are loaded for files
     page.goto((html / "book" / "playground.html").as_uri() + "#seed=4&generation=20")
     page.get_by_role("button", name="Play", exact=True).click()
     page.get_by_role("status").filter(has_text="Success in generation").wait_for()

@@ -1,4 +1,4 @@
-"""The playground's page in a browser, as a reader uses it; whatever it computes is held against the package."""
+"""The playground's page in a browser, as a reader uses it. All that it computes is compared with the package."""
 
 import re
 from pathlib import Path
@@ -27,7 +27,7 @@ QUICK_PARAMETERS = safe.Parameters(population=20, objectives=20, generations=30)
 
 @pytest.fixture
 def visit(browser, site):
-    """Opens the playground at an address, as a reader would; nothing that goes wrong on the way is let pass."""
+    """Open the playground at an address, as a reader would. Whatever goes wrong in a page fails the test."""
     visits = []
 
     def open_page(fragment="", viewport=DESKTOP, page_name="book/playground.html", **options):
@@ -44,7 +44,7 @@ def visit(browser, site):
 
 
 def panel(page, title):
-    """What the page says of an algorithm."""
+    """The line in which the page says how far an algorithm has come."""
     return page.get_by_role("region", name=title).locator(".status")
 
 
@@ -57,35 +57,35 @@ def play_to_the_end(page, *titles):
 
 
 def status_of(run):
-    """A run that is over, as the page tells it."""
+    """What the page says of a run that is over."""
     cells = "1 cell" if run.distance == 1 else f"{run.distance} cells"
-    outcome, judged = "Success" if run.success else "No success", ""
+    outcome, fitness = "Success" if run.success else "No success", ""
     if run.coefficients:
         outcome += f" in generation {run.generation}" if run.success else f" in {run.generation + 1} generations"
         a, b = (f"{float(f'{c:.3g}'):g}" for c in run.coefficients)
-        judged = f" Its fitness: {a} · closeness + {b} · novelty."
-    return f"{outcome}: best {cells} from the goal, after {run.evaluations} robots.{judged}"
+        fitness = f" Its fitness: {a} · closeness + {b} · novelty."
+    return f"{outcome}: best {cells} from the goal, after {run.evaluations} robots.{fitness}"
 
 
 def address_of(page):
-    """What is in the address, once it says what the page shows."""
-    page.evaluate("new Promise((done) => setTimeout(done, 250))")  # set after the page's own timer, and as long
+    """The keys and values of the address, once the page has written its state there."""
+    page.evaluate("new Promise((done) => setTimeout(done, 250))")  # started after the page's own timer
     fragment = page.evaluate("decodeURIComponent(location.hash.slice(1))")
     return [tuple(part.split("=", 1)) for part in fragment.split("&")]
 
 
 def driven(page):
-    """The controller that is in the address of a page that drives."""
+    """The controller in the address of the page, which drives."""
     return [float(weight) for weight in dict(address_of(page))["controller"].split(",")]
 
 
 def maze_at(page):
-    """The maze that is in the address of a page that draws."""
+    """The maze in the address of the page, which draws."""
     return maze_of(dict(address_of(page))["maze"])
 
 
 def wait_for_view(page, view):
-    """Wait until a view shows what it has to show."""
+    """Wait until a view is complete."""
     page.get_by_role("tab", name=VIEWS[view], selected=True).wait_for()
     shown = {
         "watch": "Generation",
@@ -150,7 +150,7 @@ def test_playing_can_be_paused_and_goes_on(visit):
     assert panel(page, "Standard EA").inner_text() == status_of(safe.evolve("maze1", "standard", 1))
 
 
-def test_charts_tell_how_the_run_has_gone(visit):
+def test_charts_show_the_run_so_far(visit):
     generations = list(safe.generations("maze1", "safe", 2, QUICK_PARAMETERS))
     page = visit(f"algorithm=safe&seed=2&{QUICK}&generation=12")
     panel(page, "SAFE").get_by_text("Generation 12").wait_for()
@@ -201,7 +201,7 @@ def test_one_robot_is_explained(visit, algorithm):
     assert driven(page) == generation.genomes[13].tolist()
 
 
-def test_a_robot_is_looked_at_where_it_is_clicked(visit):
+def test_a_click_selects_the_robot_that_ended_there(visit):
     generation = next(iter(safe.generations("maze1", "novelty", 4, QUICK_PARAMETERS)))
     page = visit(f"algorithm=novelty&seed=4&{QUICK}")
     panel(page, "Novelty search").get_by_text("Generation 0").wait_for()
@@ -212,7 +212,7 @@ def test_a_robot_is_looked_at_where_it_is_clicked(visit):
     page.get_by_text(f"ended at row {row}, column {column},").wait_for()
 
 
-def test_a_robot_that_is_clicked_in_passing_is_one_of_the_generation_that_stays(visit):
+def test_a_click_while_playing_selects_from_the_generation_that_stays(visit):
     generations = {g.generation: g for g in safe.generations("maze2", "novelty", 4, QUICK_PARAMETERS)}
     page = visit(f"maze=maze2&algorithm=novelty&seed=4&{QUICK}")
     panel(page, "Novelty search").get_by_text("Generation 0").wait_for()
@@ -220,10 +220,10 @@ def test_a_robot_that_is_clicked_in_passing_is_one_of_the_generation_that_stays(
     page.get_by_role("button", name="Play").click()
     page.wait_for_function("document.querySelector('.panel .status').textContent.match(/\\d+/)[0] > 3")
     page.get_by_role("region", name="Novelty search").locator("canvas").click(position={"x": 200, "y": 200})
-    told = page.get_by_text(re.compile("^Robot .* ended at"))
-    told.wait_for()
+    line = page.get_by_text(re.compile("^Robot .* ended at"))
+    line.wait_for()
     generation = generations[int(page.get_by_label("Generation", exact=True).input_value())]
-    robot, row, column = map(int, re.findall(r"\d+", told.inner_text())[:3])
+    robot, row, column = map(int, re.findall(r"\d+", line.inner_text())[:3])
     assert generation.endpoints[robot].tolist() == [row, column]
 
 
@@ -249,7 +249,7 @@ def test_a_number_out_of_range_is_refused_and_what_was_there_comes_back(visit, f
     assert number.input_value() == before
 
 
-def test_less_motion_where_the_reader_asks_for_it(visit):
+def test_less_motion_if_the_reader_asks_for_it(visit):
     page = visit(f"algorithm=standard&seed=1&{QUICK}", reduced_motion="reduce")
     panel(page, "Standard EA").get_by_text("Generation 0").wait_for()
     page.evaluate("""() => {
@@ -268,7 +268,7 @@ def test_less_motion_where_the_reader_asks_for_it(visit):
 
 
 def test_ten_rows_of_the_tables_open_their_runs(visit, html):
-    """Two that fail, the soonest to succeed of each page, and others that soon do; each is played to its end."""
+    """Two that fail, the first to succeed of each page, and others that succeed early; each is played to its end."""
     pages = ["table2-success", "fixed-weights", "unevolved", "coefficients", "table3-evolved", "generations", "replay"]
     runs, of_page = {}, {}
     for name in pages:
@@ -376,7 +376,7 @@ def test_weights_that_are_being_evolved_do_not_overwrite_others(visit):
 
 
 def editor_at(page, maze):
-    """A function that tells where on the page a cell of the editor is."""
+    """A function that gives the position on the page of a cell of the editor."""
     page.locator("canvas.editor").scroll_into_view_if_needed()
     box = page.locator("canvas.editor").bounding_box()
     height, width = maze.shape
@@ -456,7 +456,7 @@ def test_what_was_drawn_is_not_lost_to_another_maze(visit):
     assert maze_at(page) == drawn
 
 
-def test_a_maze_whose_goal_is_cut_off_is_not_one_yet(visit):
+def test_a_drawing_whose_goal_is_cut_off_is_not_a_maze_yet(visit):
     page = visit(cells_address(ROOM))
     drag(page, editor_at(page, ROOM), (5, 0), (5, 19))
     assert "goal must be reachable from the start" in page.locator(".checks").inner_text()
@@ -489,7 +489,7 @@ def test_drawing_with_the_keyboard(visit):
 
 @pytest.mark.parametrize("button", ["Save as drawing", "Save as maze file"])
 @pytest.mark.parametrize("name", ["maze1", "rooms"])
-def test_a_maze_is_taken_along_and_brought_back(visit, tmp_path, button, name):
+def test_a_maze_is_saved_and_loaded(visit, tmp_path, button, name):
     page = visit(f"view=draw&maze={name}")
     with page.expect_download() as download:
         page.get_by_role("button", name=button).click()
@@ -621,12 +621,12 @@ def test_many_runs_count_as_the_package_counts(visit):
         cells = page.locator(".outcomes tbody tr").nth(row).locator("td.number").all_inner_texts()
         rate, low, high = (f"{100 * share:.{int(0 < share < 0.1)}f}" for share in (successes / 20, low, high))
         assert cells == ["20", str(successes), f"{rate} %", f"{low} to {high} %"]
-    told_of = page.locator(".outcomes").inner_text()
+    outcomes = page.locator(".outcomes").inner_text()
     failed = [run.success for run in runs].index(False)
     page.locator(".outcomes tbody tr").nth(1).get_by_role("button", name="a failure").click()
     assert ("seed", str(100 + failed)) in address_of(page)
     page.get_by_role("tab", name="Many runs").click()
-    assert page.locator(".outcomes").inner_text() == told_of
+    assert page.locator(".outcomes").inner_text() == outcomes
     assert [value for key, value in address_of(page) if key in ("algorithm", "seed")] == ["novelty", "random", "100"]
     page.get_by_label("Seed").locator("visible=true").fill("7")
     page.keyboard.press("Enter")

@@ -1,7 +1,9 @@
+import json
 import subprocess
 
 import pytest
 
+from safe.maze_files import MAZE_FOLDER
 from safe.playground import bundle
 from tests.helpers.twin import NODE, needs_node
 
@@ -65,14 +67,14 @@ def test_a_method_may_be_called_import(write):
 
 @needs_node
 def test_a_worker_holds_the_same_modules(write):
-    folder = write(entry='export function serve(scope) { scope.said = greeting; }\nconst greeting = "ready";\n')
+    folder = write(entry='export function serve(scope) { scope.greeting = greeting; }\nconst greeting = "ready";\n')
     log = node(
         bundle.script(ENTRY, folder)
         + """
 globalThis.Blob = class { constructor(parts, options) { this.text = parts.join(""); this.type = options.type; } };
 URL.createObjectURL = (blob) => blob;
 globalThis.Worker = class {
-  constructor(blob) { (0, eval)("self = {}; " + blob.text); console.log(blob.type, self.said); }
+  constructor(blob) { (0, eval)("self = {}; " + blob.text); console.log(blob.type, self.greeting); }
 };
 playground().makeWorker();
 """
@@ -146,6 +148,13 @@ def test_a_circle_of_imports(write):
 def test_other_forms_are_refused(write, line):
     with pytest.raises(ValueError, match=r"^entry\.js must import and export as bundle\.py reads it; got '"):
         bundle.script(ENTRY, write(entry=f"{line}\n", base="export const a = 1;\n"))
+
+
+@needs_node
+def test_the_mazes_of_the_package_are_a_module(write):
+    folder = write(entry='export { PACKAGED_MAZES } from "./packaged_mazes.js";\n')
+    log = node(bundle.script(ENTRY, folder) + "console.log(JSON.stringify(playground().PACKAGED_MAZES));")
+    assert json.loads(log) == {path.stem: path.read_text() for path in MAZE_FOLDER.glob("*.maze")}
 
 
 @needs_node

@@ -1,4 +1,4 @@
-"""The engine in a page, and not in a worker of it: modules that a page can load, and the same runs."""
+"""The engine as modules that a page loads itself, without a worker: the runs are the same."""
 
 import safe
 from tests.helpers.browser import needs_browser

@@ -1,19 +1,19 @@
-// The state of the playground as the part of a page's address behind the #, and back; safe/address.py writes the same.
+// The state of the playground as the part of a page's address behind the #, and back (see safe/playground/address.py).
 
 import { ALGORITHMS, checkedAlgorithm, checkedParameters, PARAMETERS, RATINGS } from "./algorithms.js";
 import { checkedChoice, checkedInteger, checkedRow, InputError, MOST, shown } from "./checks.js";
-import { drawingOf, LONGEST_SIDE, makeMaze, parseMaze } from "./maze.js";
-import { MAZES } from "./mazes.js";
+import { LONGEST_SIDE, makeMaze } from "./maze.js";
+import { isNamed, namedMaze } from "./named_mazes.js";
 import { checkedSeed } from "./random.js";
 import { WEIGHTS } from "./robot.js";
 
 export const VIEWS = ["watch", "drive", "draw", "runs"];
 export const MOST_RUNS = 10000;
-const MOST_ALGORITHMS = 8; // side by side
+const MOST_ALGORITHMS = 8; // side by side in a view
 const RATING_CODES = { none: RATINGS[0], genotypic: RATINGS[1] };
 
 /** The state that an address describes: those of { view, maze, algorithms, seed, parameters, generation, runs,
- * controller } that it names. Throws an InputError where it cannot be read. */
+ * controller } that it names. Throws an InputError if it cannot be read. */
 export function readAddress(text) {
   const state = {};
   const parameters = {};
@@ -31,9 +31,7 @@ export function readAddress(text) {
     else throw new InputError(`an address must hold known keys; got ${shown(key)}`);
   }
   if (state.algorithms?.length > MOST_ALGORITHMS) {
-    throw new InputError(
-      `an address may hold ${MOST_ALGORITHMS} algorithms at the most; got ${state.algorithms.length}`,
-    );
+    throw new InputError(`an address must hold at most ${MOST_ALGORITHMS} algorithms; got ${state.algorithms.length}`);
   }
   if (Object.keys(parameters).length > 0) {
     checkedParameters(parameters);
@@ -76,60 +74,39 @@ export function writeSeed({ entropy, spawnKey }) {
     .join("/");
 }
 
-/** The n-th of the seeds that begin with this one: of an experiment's run its n-th run, of an integer the n-th after. */
+/** The n-th of the seeds that begin with this one: the n-th run of the experiment, or the n-th integer after it. */
 export function nthSeed({ entropy, spawnKey }, n) {
   if (spawnKey.length > 0) return { entropy, spawnKey: [...spawnKey.slice(0, -1), BigInt(n)] };
   return { entropy: [...entropy.slice(0, -1), entropy.at(-1) + BigInt(n)], spawnKey };
 }
 
-/** A maze of MAZES by its name. */
-export function namedMaze(name) {
-  return parseMaze(MAZES[checkedChoice("maze", name, Object.keys(MAZES))], name);
-}
-
-/** Is this the maze of MAZES that has its name? */
-export function isNamed(maze) {
-  return Object.hasOwn(MAZES, maze.name) && drawingOf(namedMaze(maze.name)) === drawingOf(maze);
-}
-
-/** A maze, by its name where it is one of MAZES. */
-export function known(maze) {
-  return (
-    Object.keys(MAZES)
-      .map((name) => ({ ...maze, name }))
-      .find(isNamed) ?? maze
-  );
-}
-
 /** 16 weights from a text, or from an array of numbers. */
 export function readController(value) {
-  const weights = typeof value === "string" ? value.split(",").map(readWeight) : value;
+  const weights = typeof value === "string" ? value.split(",").map(readDecimal) : value;
   return [...checkedRow("controller", weights, WEIGHTS, -1, 1)];
 }
 
-function readWeight(text) {
+function readDecimal(text) {
   return text.trim() ? Number(text) : NaN;
 }
 
 function readNumber(name, text) {
-  if (!/^[0-9]{1,9}(\.[0-9]{1,30})?(e-[0-9]{1,3})?$/.test(text))
+  if (!/^[0-9]{1,9}(\.[0-9]{1,30})?(e-[0-9]{1,3})?$/.test(text)) {
     throw new InputError(`${name} must be a number; got ${shown(text)}`);
+  }
   return Number(text);
 }
 
 function readAlgorithm(text) {
   const [name, rating, objectives, ...more] = text.split(":");
   if (rating === undefined) return checkedAlgorithm(name);
-  const weights = objectives === "drawn" ? null : objectives ? objectives.split(",").map(readWeight) : [];
-  if (
-    objectives === undefined ||
-    more.length > 0 ||
-    !Object.hasOwn(RATING_CODES, rating) ||
-    (weights !== null && weights.length % 2)
-  ) {
+  const coefficients = objectives === "drawn" ? null : objectives ? objectives.split(",").map(readDecimal) : [];
+  const isWhole = objectives !== undefined && more.length === 0 &&
+    (coefficients === null || coefficients.length % 2 === 0);
+  if (!isWhole || !Object.hasOwn(RATING_CODES, rating)) {
     throw new InputError(`algorithm must be a name, or name:rating:a,b,...; got ${shown(text)}`);
   }
-  const pairs = weights?.flatMap((weight, i) => (i % 2 ? [] : [[weight, weights[i + 1]]])) ?? null;
+  const pairs = coefficients?.flatMap((a, i) => (i % 2 ? [] : [[a, coefficients[i + 1]]])) ?? null;
   return checkedAlgorithm({ name, rating: RATING_CODES[rating], objectives: pairs });
 }
 

@@ -22,7 +22,7 @@ export const ALGORITHMS = {
 
 export const PARAMETERS = {
   population: 200, // solutions in a generation
-  objectives: 200, // objective functions in a generation, where they evolve
+  objectives: 200, // objective functions in a generation, if they evolve
   generations: 500, // at the most
   tournament: 5, // individuals drawn for a tournament
   elites: 2, // fittest individuals that pass on unchanged
@@ -36,7 +36,7 @@ export const PARAMETERS = {
 export const PROBABILITIES = ["crossover", "mutation"];
 const MAY_BE_ZERO = ["elites", "archive", "success_distance"];
 
-/** An algorithm by its name in ALGORITHMS, or one given as { name, objectives, rating }, checked. */
+/** An algorithm, checked: one of ALGORITHMS by its name, or { name, objectives, rating }. */
 export function checkedAlgorithm(algorithm) {
   if (typeof algorithm !== "object" || algorithm === null) {
     return ALGORITHMS[checkedChoice("algorithm", algorithm, Object.keys(ALGORITHMS))];
@@ -54,10 +54,10 @@ export function checkedAlgorithm(algorithm) {
   return { name, objectives, rating };
 }
 
-/** All parameters, the given ones checked, the others as in the paper. */
-export function checkedParameters(given = {}) {
-  for (const name of Object.keys(given)) checkedChoice("the name of a parameter", name, Object.keys(PARAMETERS));
-  const parameters = { ...PARAMETERS, ...given };
+/** All parameters, checked: these, and the others as in the paper. */
+export function checkedParameters(changes = {}) {
+  for (const name of Object.keys(changes)) checkedChoice("the name of a parameter", name, Object.keys(PARAMETERS));
+  const parameters = { ...PARAMETERS, ...changes };
   for (const [name, value] of Object.entries(parameters)) {
     if (PROBABILITIES.includes(name)) checkedProbability(name, value);
     else checkedInteger(name, value, MAY_BE_ZERO.includes(name) ? 0 : 1, MOST);

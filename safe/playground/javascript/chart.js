@@ -1,6 +1,7 @@
 // Charts as SVG: lines over a number, and the square of objective functions.
 
 import { make, makeSvg } from "./dom.js";
+import { shortNumber } from "./text.js";
 
 const WIDTH = 250;
 const HEIGHT = 170;
@@ -10,7 +11,7 @@ const TOP = 10;
 const RIGHT = 10;
 const MOST_POINTS = 400; // of a line or a square that are drawn
 
-/** Lines over a number. */
+/** Lines over a number, such as that of the generation. */
 export class LineChart {
   constructor(title, across) {
     this.title = title;
@@ -19,8 +20,9 @@ export class LineChart {
     this.element = make("figure", { class: "chart" }, make("figcaption", {}, title), this.drawing);
   }
 
-  /** series: { label, kind, points: [[x, y]], band: [[x, low, high]] } each; `kind` chooses the looks of a line (see
-   * playground.css). top and last: where the scales end, unless the points go beyond. */
+  /** series: a list of { label, kind, points: [[x, y]], band: [[x, low, high]] }; for kinds see `kindOf`.
+   *
+   * top and last: where the scales end, unless the points go beyond. */
   show(series, top = 0, last = 1) {
     const points = series.flatMap(({ points: all, band = [] }) => all.concat(band.map(([x, , high]) => [x, high])));
     const lastX = points.reduce((largest, [x]) => Math.max(largest, x), last);
@@ -31,7 +33,7 @@ export class LineChart {
     this.drawing.setAttribute("aria-label", `${this.title}: ${series.map(summary).join("; ") || "nothing yet"}`);
     this.drawing.replaceChildren(
       ...makeAxes(HEIGHT, this.across, [0, lastX], [0, topY]),
-      makeText(LEFT - 5, toY(topY / 2) + 4, short(topY / 2), "end"),
+      makeText(LEFT - 5, toY(topY / 2) + 4, shortNumber(topY / 2), "end"),
       ...series.flatMap(({ kind, points: all, band = [] }) => [
         makeSvg("polygon", {
           class: `band ${kind}`,
@@ -43,7 +45,7 @@ export class LineChart {
   }
 }
 
-/** The square of objective functions [a, b], those that won among them highlighted. */
+/** The square of objective functions [a, b], with those highlighted that gave solutions their fitness. */
 export class ObjectiveSquare {
   constructor() {
     this.drawing = makeSvg("svg", { viewBox: "0 0 250 250", role: "img" });
@@ -52,27 +54,30 @@ export class ObjectiveSquare {
     this.element = make("figure", { class: "chart square" }, caption, this.drawing);
   }
 
-  /** groups: { label, kind, objectives: [a, b] each, winners: which of them gave each solution its fitness, chosen: one
-   * to mark, or null }, one for each algorithm. */
+  /** groups: for each algorithm { label, kind, objectives: [[a, b]], winners, marked }; `winners` are the indices of
+   * those that gave the solutions their fitness, `marked` is that of one to mark, or null. */
   show(groups) {
-    const weights = groups.flatMap(({ objectives }) => objectives.flat());
-    const top = weights.reduce((largest, weight) => Math.max(largest, weight), 1);
-    const low = weights.reduce((smallest, weight) => Math.min(smallest, weight), 0);
+    const coefficients = groups.flatMap(({ objectives }) => objectives.flat());
+    const top = coefficients.reduce((largest, value) => Math.max(largest, value), 1);
+    const low = coefficients.reduce((smallest, value) => Math.min(smallest, value), 0);
     const toX = (a) => LEFT + ((a - low) / (top - low)) * (WIDTH - LEFT - RIGHT);
     const toY = (b) => WIDTH - BOTTOM - ((b - low) / (top - low)) * (WIDTH - BOTTOM - TOP);
     const dot = ([a, b], r, kind) => makeSvg("circle", { cx: toX(a), cy: toY(b), r, class: kind });
-    const told = [], judges = [], winning = [], marks = [];
-    for (const { label, kind, objectives, winners, chosen } of groups) {
+    const summaries = [], judges = [], winning = [], marks = [];
+    for (const { label, kind, objectives, winners, marked } of groups) {
       const wins = new Map();
       for (const j of winners) wins.set(j, (wins.get(j) ?? 0) + 1);
       for (const objective of thinned(objectives)) judges.push(dot(objective, 2.2, "judge"));
       for (const [j, count] of wins) {
         winning.push(dot(objectives[j], 3.5 + Math.min(6, Math.sqrt(count) / 3), `winner ${kind}`));
       }
-      if (chosen !== null) marks.push(dot(objectives[chosen], 11, "chosen"));
-      told.push(`${label}: ${objectives.length}, of which ${wins.size} gave solutions their fitness`);
+      if (marked !== null) marks.push(dot(objectives[marked], 11, "marked"));
+      summaries.push(`${label}: ${objectives.length}, of which ${wins.size} gave solutions their fitness`);
     }
-    this.drawing.setAttribute("aria-label", `Objective functions by their weights a and b. ${told.join("; ")}`);
+    this.drawing.setAttribute(
+      "aria-label",
+      `Objective functions by their coefficients a and b. ${summaries.join("; ")}`,
+    );
     this.drawing.replaceChildren(
       ...makeAxes(WIDTH, "a: closeness", [low, top], [low, top]),
       makeSvg("text", { x: 14, y: 110, "text-anchor": "middle", transform: "rotate(-90 14 110)" }, "b: novelty"),
@@ -83,20 +88,20 @@ export class ObjectiveSquare {
   }
 }
 
-/** Two axes, with what the lower one counts, and where both begin and end. */
+/** Two axes: what the lower one counts, and where both begin and end. */
 function makeAxes(height, across, [firstX, lastX], [lowY, topY]) {
   const bottom = height - BOTTOM, right = WIDTH - RIGHT;
   return [
     makeSvg("path", { class: "axis", d: `M${LEFT},${TOP}V${bottom}H${right}` }),
-    makeText(LEFT - 5, TOP + 8, short(topY), "end"),
-    makeText(LEFT - 5, bottom, short(lowY), "end"),
-    makeText(LEFT, bottom + 14, short(firstX), "middle"),
-    makeText(right, bottom + 14, short(lastX), "end"),
+    makeText(LEFT - 5, TOP + 8, shortNumber(topY), "end"),
+    makeText(LEFT - 5, bottom, shortNumber(lowY), "end"),
+    makeText(LEFT, bottom + 14, shortNumber(firstX), "middle"),
+    makeText(right, bottom + 14, shortNumber(lastX), "end"),
     makeText((LEFT + right) / 2, height - 4, across, "middle"),
   ];
 }
 
-/** So many values that they can be told apart, the last among them. */
+/** At most MOST_POINTS of the values, evenly spread, the last among them. */
 function thinned(values) {
   const step = Math.ceil(values.length / MOST_POINTS);
   return step <= 1 ? values : values.filter((_, i) => i % step === 0 || i === values.length - 1);
@@ -106,19 +111,14 @@ function makeText(x, y, content, anchor) {
   return makeSvg("text", { x, y, "text-anchor": anchor }, content);
 }
 
-/** A number that is easy to read, at least as large. */
+/** A round number, at least as large. */
 function rounded(value) {
   const unit = 10 ** Math.floor(Math.log10(value));
   return [1, 2, 4, 5, 10].map((step) => step * unit).find((step) => step >= value * 0.9999);
 }
 
-/** A number in few characters. */
-function short(value) {
-  return `${Number(value.toPrecision(3))}`;
-}
-
 function summary({ label, points }) {
   if (points.length === 0) return `${label}: nothing yet`;
   const [x, y] = points.at(-1);
-  return `${label}: ${short(y)} at ${short(x)}`;
+  return `${label}: ${shortNumber(y)} at ${shortNumber(x)}`;
 }

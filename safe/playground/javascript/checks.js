@@ -1,13 +1,13 @@
-// Checks of what users pass in, the same as those of the package. Every failed check is an InputError that names the
-// argument, what it must be, and what it was.
+// Checks of what users pass in, in the words of the package (see safe/checks.py). A check that fails is an InputError
+// that names the argument, what it must be, and what it was.
 
 export const MOST = 1000000; // of anything that is counted or stored
 export const LARGEST = 1e100; // of any number in an array: squares of such, and sums of those, are finite
 
-/** What a user gave is wrong; the message says what, in one line. */
+/** An argument is wrong; the message says which and why, in one line. */
 export class InputError extends Error {}
 
-/** The value as an error message shows it: in one line, cut where it is long. */
+/** The value as an error message shows it: in one line, cut if it is long. */
 export function shown(value) {
   let text;
   if (typeof value === "string") {
@@ -86,6 +86,8 @@ function isRow(row) {
 function checkRange(name, row, low, high, indexOf) {
   const wrong = row.findIndex((number) => !(Number.isFinite(number) && number >= low && number <= high));
   if (wrong >= 0) {
-    throw new InputError(`${name} must be finite and in [${low}, ${high}]; got ${row[wrong]} at index ${indexOf(wrong)}`);
+    throw new InputError(
+      `${name} must be finite and in [${low}, ${high}]; got ${row[wrong]} at index ${indexOf(wrong)}`,
+    );
   }
 }

@@ -2,24 +2,35 @@
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/** An HTML element. Attributes that begin with `on` are listeners; null, undefined and false leave one away. */
+/** An HTML element. An attribute that begins with `on` is a listener; null, undefined or false leaves it out. */
 export function make(tag, attributes = {}, ...children) {
-  return filled(document.createElement(tag), attributes, children);
+  return fill(document.createElement(tag), attributes, children);
 }
 
 /** An SVG element, likewise. */
 export function makeSvg(tag, attributes = {}, ...children) {
-  return filled(document.createElementNS(SVG, tag), attributes, children);
+  return fill(document.createElementNS(SVG, tag), attributes, children);
 }
 
-function filled(node, attributes, children) {
+function fill(node, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
-    else if (value !== null && value !== undefined && value !== false)
+    else if (value !== null && value !== undefined && value !== false) {
       node.setAttribute(name, value === true ? "" : value);
+    }
   }
-  node.append(...children.filter((child) => child !== null));
+  node.append(...children);
   return node;
+}
+
+/** A block of elements. */
+export function makeBlock(...children) {
+  return make("div", {}, ...children);
+}
+
+/** A row of buttons and fields. */
+export function makeControls(...children) {
+  return make("div", { class: "controls" }, ...children);
 }
 
 /** A button. */
@@ -32,6 +43,11 @@ export function labelled(text, field, attributes = {}) {
   return make("label", { class: "field", ...attributes }, make("span", {}, text), field);
 }
 
+/** A text that nobody sees, and that screen readers announce when it changes. */
+export function makeAnnouncement() {
+  return make("p", { class: "unseen", role: "status" });
+}
+
 /** A choice among [value, text] pairs. */
 export function makeSelect(options, onchange) {
   const select = make("select", {}, ...options.map(([value, text]) => make("option", { value }, text)));
@@ -39,44 +55,42 @@ export function makeSelect(options, onchange) {
   return select;
 }
 
-/** A row of choices of which one is taken: radio buttons for [value, text] pairs, in a group with a name. */
-export function makeRadios(name, options, chosen, onchange) {
-  const group = freshId(name);
-  return make(
-    "fieldset",
-    { class: "radios" },
-    make("legend", {}, name),
-    ...options.map(([value, text]) =>
-      make(
-        "label",
-        {},
-        make("input", {
-          type: "radio",
-          name: group,
-          value,
-          checked: value === chosen,
-          onchange: () => onchange(value),
-        }),
-        text,
-      ),
-    ),
-  );
+/** A group of radio buttons, under a title, for [value, text] pairs. */
+export function makeRadios(title, options, selected, onchange) {
+  const name = freshId(title);
+  const labels = options.map(([value, text]) => {
+    const listener = () => onchange(value);
+    const radio = make("input", { type: "radio", name, value, checked: value === selected, onchange: listener });
+    return make("label", {}, radio, text);
+  });
+  return make("fieldset", { class: "radios" }, make("legend", {}, title), ...labels);
 }
 
-const OWN = Math.random().toString(36).slice(2); // each widget of a notebook loads this module anew
-let serial = 0;
+/** The head of a table. isNumber: does the i-th column hold numbers? */
+export function makeTableHead(titles, isNumber) {
+  const cells = titles.map((title, i) => make("th", { scope: "col", class: isNumber(i) ? "number" : null }, title));
+  return make("thead", {}, make("tr", {}, ...cells));
+}
 
-/** What is seen in a maze, as [kind, text] pairs; for kinds see playground.css. */
+/** Cells of a table for numbers, still empty. */
+export function makeNumberCells(count) {
+  return Array.from({ length: count }, () => make("td", { class: "number" }));
+}
+
+/** What is seen in a maze, as [kind, text] pairs; for the kinds see playground.css. */
 export function makeLegend(entries) {
   const items = entries.map(([kind, text]) =>
-    make("li", {}, make("span", { class: `key ${kind}`, "aria-hidden": "true" }), text),
+    make("li", {}, make("span", { class: `key ${kind}`, "aria-hidden": "true" }), text)
   );
   return make("ul", { class: "legend" }, ...items);
 }
 
+const MODULE_ID = Math.random().toString(36).slice(2); // each widget of a notebook loads this module again
+let serial = 0;
+
 /** An id that no other element has. */
 export function freshId(name) {
-  return `playground-${OWN}-${name}-${serial++}`;
+  return `playground-${MODULE_ID}-${name}-${serial++}`;
 }
 
 /** Hand a text to the reader as a file. */

@@ -1,9 +1,9 @@
-// The package `safe` once more, for a reader without a kernel: the same seed gives the same run, bit for bit.
+// The science of the package once more, for readers without Python: the same seed gives the same run, bit for bit.
 //
-// Plain modules without dependencies that know of no page: they run in a browser, in a worker and in Node.
+// These modules have no dependencies and touch no page, so they run in a browser, in its workers and in Node.
 
 export { ALGORITHMS, PARAMETERS } from "./algorithms.js";
 export { evolve, generations } from "./evolution.js";
-export { parseMaze } from "./maze.js";
+export { parseMaze } from "./maze_files.js";
 export { NoveltyArchive } from "./novelty.js";
 export { endpoints, path } from "./robot.js";

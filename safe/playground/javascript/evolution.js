@@ -2,10 +2,11 @@
 
 import { checkedAlgorithm, checkedParameters, COMPONENTS, GOAL, NOVELTY } from "./algorithms.js";
 import { InputError } from "./checks.js";
-import { Archive, Occupancy, neighboursOf, rowOf, rowsOf, scoreCells, scorePoints } from "./novelty.js";
+import { Archive, neighboursOf, Occupancy, scoreCells, scorePoints } from "./novelty.js";
 import { breed, drawGenomes } from "./operators.js";
 import { Sfc64 } from "./random.js";
 import { Walker, WEIGHTS } from "./robot.js";
+import { rowOf, rowsOf } from "./rows.js";
 
 /** A run, to be advanced generation by generation. Matrices are Float64Arrays, row after row. */
 export class Evolution {
@@ -28,7 +29,7 @@ export class Evolution {
     if (this.evolving && elites >= judges) {
       throw new InputError(`elites must be fewer than the ${judges} objective functions; got ${elites}`);
     }
-    this.weighNovelty = this.evolving || this.objectives.some((weight, i) => i % COMPONENTS.length === NOVELTY && weight);
+    this.weighNovelty = this.evolving || this.objectives.some((c, i) => i % COMPONENTS.length === NOVELTY && c !== 0);
     const rates = { tournament, elites, crossover, mutation };
     this.breeding = { ...rates, low: -1, high: 1 };
     this.objectiveBreeding = { ...rates, low: 0, high: 1 };
@@ -71,7 +72,7 @@ export class Evolution {
     return this.best.distance <= this.parameters.success_distance;
   }
 
-  /** What came of the run so far; as safe.Run. */
+  /** The run so far; as safe.Run. */
   result() {
     return {
       success: this.hasSucceeded,
@@ -85,18 +86,18 @@ export class Evolution {
 
   /** The generation, as plain arrays; as safe.Generation. */
   generation() {
-    const unless = (absent, values) => (absent ? null : Array.from(values));
+    const listed = (values, isThere) => (isThere ? Array.from(values) : null);
     return {
       ...this.result(),
       genomes: rowsOf(this.genomes, WEIGHTS),
       endpoints: rowsOf(this.endpoints, 2),
       distances: Array.from(this.distances),
       components: this.components.map((values) => Array.from(values)),
-      novelty: unless(!this.weighNovelty, this.components[NOVELTY]),
-      fitness: unless(this.isRandomSearch, this.fitness),
+      novelty: listed(this.components[NOVELTY], this.weighNovelty),
+      fitness: listed(this.fitness, !this.isRandomSearch),
       objectives: rowsOf(this.objectives, COMPONENTS.length),
-      objectiveFitness: unless(!this.evolving, this.objectiveFitness),
-      winners: unless(this.isRandomSearch, this.winners),
+      objectiveFitness: listed(this.objectiveFitness, this.evolving),
+      winners: listed(this.winners, !this.isRandomSearch),
       archive: this.archive.listed(),
       objectiveArchive: this.objectiveArchive.listed(),
     };
@@ -132,11 +133,11 @@ export class Evolution {
       this.archiveBefore.copyFrom(this.archive);
       scoreCells(endpoints, this.archive, this.occupancy, parameters.k, this.components[NOVELTY]);
     }
-    if (!this.isRandomSearch) this.#judge();
+    if (!this.isRandomSearch) this.#bestScores();
   }
 
   /** Algorithm 1: the fitness of S_i is max_j O_j(S_i), and the first such O_j is its winner. */
-  #judge() {
+  #bestScores() {
     const { components, objectives, fitness, winners } = this;
     const width = components.length, judges = objectives.length / width;
     for (let i = 0; i < fitness.length; i++) {
@@ -166,7 +167,7 @@ export class Evolution {
     }
   }
 
-  /** The next generation of solutions and, where they evolve, of objective functions. */
+  /** The next generation of solutions and, if they evolve, of objective functions. */
   #breedBoth() {
     if (this.isRandomSearch) return drawGenomes(this.rng, -1, 1, this.genomes);
     breed(this.genomes, this.fitness, this.breeding, this.rng, this.offspring);
@@ -178,14 +179,14 @@ export class Evolution {
   }
 }
 
-/** One run, from its first generation to its end; the same as safe.evolve gives, bit for bit. */
+/** One run, from its first generation to its end; as safe.evolve. */
 export function evolve(maze, algorithm, seed, parameters = {}) {
   const evolution = new Evolution(maze, algorithm, seed, parameters);
   while (evolution.advance());
   return evolution.result();
 }
 
-/** The same run, one generation at a time; arguments are checked now, not at the first step. */
+/** One run, generation by generation; as safe.generations. Arguments are checked at once, not at the first step. */
 export function generations(maze, algorithm, seed, parameters = {}) {
   return eachGeneration(new Evolution(maze, algorithm, seed, parameters));
 }

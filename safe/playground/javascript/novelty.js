@@ -5,6 +5,8 @@
 // each is offered to the archive right after its score is known.
 
 import { checkedChoice, checkedInteger, checkedRows, MOST } from "./checks.js";
+import { nearestDistances } from "./neighbours.js";
+import { rowOf } from "./rows.js";
 
 export const K = 15;
 export const ARCHIVE_CAPACITY = 1000;
@@ -44,7 +46,7 @@ export class NoveltyArchive {
   }
 }
 
-/** A fixed number of places for points with their scores. */
+/** Points with their scores, in a fixed number of places. */
 export class Archive {
   constructor(capacity, dimensions) {
     this.dimensions = dimensions;
@@ -108,9 +110,9 @@ export class Archive {
 
 // There are two ways to find the nearest neighbours, and both are exact.
 //
-// End points are cells of a maze, so taxicab distances are whole numbers and many points share a cell. `scoreCells` keeps
-// count of the points in every cell, and adds the counts up ring by ring around a point until it has k neighbours. Where
-// they are farther than some rings, in a large and empty maze, it measures the distance to every point.
+// End points are cells of a maze, so taxicab distances are whole numbers and many points share a cell. `scoreCells`
+// counts the points in every cell, and adds the counts up ring by ring around a point until it has k neighbours. If
+// these lie beyond the rings, as in a large and empty maze, it measures the distance to every point.
 //
 // `scorePoints` serves any points, and measures all distances.
 
@@ -128,7 +130,7 @@ export class Occupancy {
     return (RINGS + cells[2 * i]) * this.width + RINGS + cells[2 * i + 1];
   }
 
-  /** The summed distances from a place to the `wanted` nearest other points; -1 if they are not all within the rings. */
+  /** The summed distances from a place to the `wanted` nearest other points; -1 if not all are within the rings. */
   sumOverRings(place, wanted) {
     const { counts, width } = this;
     let found = counts[place] - 1; // without the point itself
@@ -187,8 +189,8 @@ function sumOverAll(cells, n, i, archive, wanted) {
   return total;
 }
 
-/** Score the first points of a generation (all, unless told how many) in order, offering each to the archive. */
-export function scorePoints(points, archive, k, taxicab, scores, first = scores.length) {
+/** Score the first `count` points of a generation, in order, offering each to the archive. */
+export function scorePoints(points, archive, k, taxicab, scores, count = scores.length) {
   const n = scores.length, { dimensions } = archive;
   // population and archive, axis by axis; points on a line get a second coordinate
   const most = n + Math.min(archive.capacity, archive.size + n);
@@ -198,7 +200,7 @@ export function scorePoints(points, archive, k, taxicab, scores, first = scores.
     for (let j = 0; j < archive.size; j++) axes[axis][n + j] = archive.points[j * dimensions + axis];
   }
   const nearest = new Float64Array(Math.min(k + 1, most));
-  for (let i = 0; i < first; i++) {
+  for (let i = 0; i < count; i++) {
     // the point finds itself, too, at a distance of 0, which adds nothing to the sum
     const wanted = Math.min(k, n - 1 + archive.size) + 1;
     nearestDistances(axes, i, n + archive.size, wanted, taxicab, nearest);
@@ -213,35 +215,9 @@ export function scorePoints(points, archive, k, taxicab, scores, first = scores.
   }
 }
 
-/** Put the `wanted` smallest distances between the i-th and all of the first `size` members, in order, into `nearest`.
- *
- * Euclidean distances stay squared: the order is the same. */
-function nearestDistances(axes, i, size, wanted, taxicab, nearest) {
-  const [xs, ys, ...others] = axes, x = xs[i], y = ys[i];
-  const last = wanted - 1;
-  let farthest = Infinity; // of those in `nearest`
-  nearest.fill(Infinity);
-  for (let j = 0; j < size; j++) {
-    const dx = xs[j] - x, dy = ys[j] - y;
-    let distance = taxicab ? Math.abs(dx) + Math.abs(dy) : dx * dx + dy * dy;
-    if (others.length > 0) {
-      for (const axis of others) {
-        const difference = axis[j] - axis[i];
-        distance += taxicab ? Math.abs(difference) : difference * difference;
-      }
-    }
-    if (distance < farthest) {
-      let place = last;
-      for (; place > 0 && nearest[place - 1] > distance; place--) nearest[place] = nearest[place - 1];
-      nearest[place] = distance;
-      farthest = nearest[last];
-    }
-  }
-}
-
 /** The k nearest neighbours that the i-th of n points had when it was scored, the nearest first.
  *
- * archive: as it was before the generation. Gives { point, distance, from }; `from` is "population" or "archive". */
+ * archive: as it was before the generation. Returns { point, distance, from }; `from` is "population" or "archive". */
 export function neighboursOf(points, n, i, archive, k, taxicab) {
   const met = new Archive(archive.capacity, archive.dimensions);
   met.copyFrom(archive);
@@ -260,14 +236,4 @@ export function neighboursOf(points, n, i, archive, k, taxicab) {
   measure(points, n, "population", (j) => j === i);
   measure(met.points, met.size, "archive", () => false);
   return neighbours.sort((a, b) => a.distance - b.distance).slice(0, k);
-}
-
-/** The i-th row of a matrix that is kept row after row. */
-export function rowOf(matrix, i, columns) {
-  return Array.from(matrix.subarray(i * columns, (i + 1) * columns));
-}
-
-/** All rows of such a matrix. */
-export function rowsOf(matrix, columns) {
-  return Array.from({ length: matrix.length / columns }, (_, i) => rowOf(matrix, i, columns));
 }

@@ -1,6 +1,6 @@
 // Selection and variation: how the next generation is bred (see safe/operators.py, also for the order of the draws).
 //
-// Genomes are rows of one Float64Array. `rates` holds tournament, elites, crossover, mutation, and low and high, the
+// Genomes are rows of one Float64Array. `breeding` holds tournament, elites, crossover, mutation, and low and high, the
 // range of a gene.
 
 /** A uniform value in [low, high). */
@@ -29,13 +29,13 @@ function tournament(fitness, size, rng) {
 }
 
 /** Put the next generation into `offspring`: the elites first, the fittest at the front, then the pairs. */
-export function breed(genomes, fitness, rates, rng, offspring) {
+export function breed(genomes, fitness, breeding, rng, offspring) {
   const n = fitness.length, length = genomes.length / n;
   const copy = (parent, place) => {
     for (let gene = 0; gene < length; gene++) offspring[place * length + gene] = genomes[parent * length + gene];
   };
   const isElite = new Uint8Array(n);
-  for (let place = 0; place < rates.elites; place++) {
+  for (let place = 0; place < breeding.elites; place++) {
     let fittest = -1;
     for (let i = 0; i < n; i++) {
       if (!isElite[i] && (fittest < 0 || fitness[i] > fitness[fittest])) fittest = i;
@@ -43,19 +43,19 @@ export function breed(genomes, fitness, rates, rng, offspring) {
     isElite[fittest] = 1;
     copy(fittest, place);
   }
-  for (let place = rates.elites; place < n; place += 2) {
-    copy(tournament(fitness, rates.tournament, rng), place);
-    copy(tournament(fitness, rates.tournament, rng), place + 1);
-    if (rng.random() < rates.crossover) {
+  for (let place = breeding.elites; place < n; place += 2) {
+    copy(tournament(fitness, breeding.tournament, rng), place);
+    copy(tournament(fitness, breeding.tournament, rng), place + 1);
+    if (rng.random() < breeding.crossover) {
       for (let gene = 1 + drawIndex(rng, length - 1); gene < length; gene++) {
         const first = place * length + gene, second = first + length;
         [offspring[first], offspring[second]] = [offspring[second], offspring[first]];
       }
     }
     for (let child = place; child < place + 2; child++) {
-      if (rng.random() < rates.mutation) {
+      if (rng.random() < breeding.mutation) {
         const gene = drawIndex(rng, length);
-        offspring[child * length + gene] = drawUniform(rng, rates.low, rates.high);
+        offspring[child * length + gene] = drawUniform(rng, breeding.low, breeding.high);
       }
     }
   }

@@ -1,6 +1,6 @@
 // numpy's random numbers: Generator(SFC64(SeedSequence(seed))).random(), bit for bit.
 //
-// The 64-bit words of the generator are kept as halves of 32 bits, which JavaScript reckons with fast.
+// The 64-bit words of the generator are kept as halves of 32 bits, with which JavaScript computes fast.
 // Sources: the generator is C. Doty-Humphrey's SFC64 (PractRand); the seeding is M. E. O'Neill's seed_seq_fe,
 // with the constants that numpy documents for SeedSequence.
 
@@ -11,7 +11,7 @@ const TWO_TO_32 = 4294967296;
 
 /** A stream of uniform numbers.
  *
- * seed: a non-negative integer (number or BigInt), an array of them, or { entropy: one of these, spawnKey: [integers] },
+ * seed: a non-negative integer (number or BigInt), an array of them, or { entropy: one of these, spawnKey: integers },
  * as numpy.random.SeedSequence takes them. */
 export class Sfc64 {
   constructor(seed) {
@@ -91,7 +91,7 @@ export function checkedSeed(seed) {
   const isSequence = typeof seed === "object" && seed !== null && !Array.isArray(seed);
   const { entropy, spawnKey = [] } = isSequence ? seed : { entropy: seed };
   const isWhole = (n) => (typeof n === "bigint" || Number.isSafeInteger(n)) && n >= 0;
-  const [entropyList, keyList] = [entropy, spawnKey].map((given) => (Array.isArray(given) ? given : [given]));
+  const [entropyList, keyList] = [entropy, spawnKey].map((part) => (Array.isArray(part) ? part : [part]));
   if (entropyList.length === 0 || ![...entropyList, ...keyList].every(isWhole)) {
     throw new InputError(
       `seed must be a non-negative integer, a sequence of them, or a SeedSequence; got ${shown(entropy)}`,

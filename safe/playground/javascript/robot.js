@@ -25,7 +25,7 @@ export function endpoints(maze, controllers, steps = STEPS) {
   });
 }
 
-/** Walks of so many steps in one maze. */
+/** Walks in one maze, all of the same number of steps. */
 export class Walker {
   constructor(maze, steps) {
     const cells = maze.height * maze.width;

@@ -1,8 +1,8 @@
-// What all parts of a playground share: its state, and who wants to know of changes.
+// What all parts of a playground share: the state, and who listens to its changes.
 
 export const SETTINGS = ["maze", "algorithms", "seed", "parameters"]; // the parts of a state that make a run
 
-/** state: { view, maze, algorithms, seed, parameters, generation, runs, controller, result }. */
+/** state: { view, maze, algorithms, seed, parameters, generation, runs, controller, result }; see state.js. */
 export class Store {
   constructor(state) {
     this.state = state;
@@ -14,7 +14,7 @@ export class Store {
     this.listeners.push(listener);
   }
 
-  /** Change parts of the state. `source` tells listeners who did: "page", or "outside". */
+  /** Change parts of the state. `source` tells listeners who changed them: "page", or "outside". */
   set(changes, source = "page") {
     Object.assign(this.state, changes);
     for (const listener of this.listeners) listener(Object.keys(changes), source);

@@ -1,38 +1,35 @@
-// The playground as a widget of Jupyter (see safe/playground.py): what is changed on the page goes to the kernel, and
-// what the kernel sets is shown. Of several views of one widget each shows what is changed in another.
+// The playground as a widget of Jupyter (see safe/playground/widget.py). What the reader changes goes to the kernel,
+// and what the kernel sets is shown. A widget may be shown several times, and then shows the same everywhere.
 
 import { mount } from "./playground.js";
 
-export const SHARED = ["maze", "controller", "seed", "result"]; // the traits of safe.Playground
+const TRAITS = ["maze", "controller", "seed", "result"]; // of safe.Playground
 
 /** Show a widget's model in an element. Returns a function that ends this. */
 export function renderWidget(model, element, makeWorker) {
-  let isTelling = false; // the kernel what this view shows already
+  let isOwnChange = false; // which this view shows already
   const view = mount(element, {
-    state: Object.fromEntries(SHARED.map((key) => [key, structuredClone(model.get(key))])),
+    state: Object.fromEntries(TRAITS.map((trait) => [trait, structuredClone(model.get(trait))])),
     makeWorker,
     onChange(changes) {
-      isTelling = true;
+      isOwnChange = true;
       try {
-        for (const [key, value] of Object.entries(changes)) model.set(key, structuredClone(value));
+        for (const [trait, value] of Object.entries(changes)) model.set(trait, structuredClone(value));
       } finally {
-        isTelling = false;
+        isOwnChange = false;
       }
       model.save_changes();
     },
   });
-  const keep = (event) => event.stopPropagation(); // keys mean something else to a notebook: d d deletes a cell
-  element.addEventListener("keydown", keep);
-  const listeners = SHARED.map((key) => [
-    `change:${key}`,
-    () => {
-      if (!isTelling) view.update({ [key]: structuredClone(model.get(key)) });
-    },
-  ]);
+  const listeners = TRAITS.map((trait) => [`change:${trait}`, () => {
+    if (!isOwnChange) view.update({ [trait]: structuredClone(model.get(trait)) });
+  }]);
   for (const [event, listener] of listeners) model.on(event, listener);
+  const keepKeys = (event) => event.stopPropagation(); // they mean something else to a notebook: d d deletes a cell
+  element.addEventListener("keydown", keepKeys);
   return () => {
     for (const [event, listener] of listeners) model.off(event, listener);
-    element.removeEventListener("keydown", keep);
+    element.removeEventListener("keydown", keepKeys);
     view.destroy();
   };
 }

@@ -1,9 +1,9 @@
 // What runs in a web worker: evolution, at the request of a page.
 
-import { Evolution, evolve } from "./evolution.js";
 import { COMPONENTS, GOAL, NOVELTY } from "./algorithms.js";
-import { rowOf, rowsOf } from "./novelty.js";
+import { Evolution, evolve } from "./evolution.js";
 import { WEIGHTS } from "./robot.js";
+import { rowOf, rowsOf } from "./rows.js";
 
 /** Answer the messages { id, task, ...arguments } of a page by { id, answer } or { id, error }. */
 export function serve(scope) {
@@ -12,44 +12,37 @@ export function serve(scope) {
     /** The first generation of a run. */
     start({ maze, algorithm, seed, parameters }) {
       evolution = new Evolution(maze, algorithm, seed, parameters);
-      return report(evolution, 1);
+      return advance(evolution, 1);
     },
-    /** So many further generations, or fewer where they take longer than some milliseconds. */
+    /** So many further generations, or fewer if they take longer than some milliseconds. */
     advance({ generations, milliseconds }) {
-      return report(evolution, generations, milliseconds);
+      return advance(evolution, generations, milliseconds);
     },
-    /** What is to be known of one solution of the generation. */
+    /** One solution of the generation. */
     inspect({ individual }) {
-      return inspected(evolution, individual);
+      return inspect(evolution, individual);
     },
     /** A whole run. */
     evolve({ maze, algorithm, seed, parameters }) {
       return evolve(maze, algorithm, seed, parameters);
     },
   };
-  scope.onmessage = ({ data: { id, task, ...given } }) => {
+  scope.onmessage = ({ data: { id, task, ...settings } }) => {
     try {
-      scope.postMessage({ id, answer: tasks[task](given) });
+      scope.postMessage({ id, answer: tasks[task](settings) });
     } catch (error) {
       scope.postMessage({ id, error: error.message });
     }
   };
 }
 
-/** Advance, and tell of each generation a line, and of the last one what is to be seen. */
-function report(evolution, generations, milliseconds = Infinity) {
-  const until = performance.now() + milliseconds;
+/** Advance a run. Returns what a page shows of the last generation, and in `history` a line for each. */
+function advance(evolution, generations, milliseconds = Infinity) {
+  const deadline = performance.now() + milliseconds;
   const history = [];
-  while (history.length < generations && !evolution.isOver && (history.length === 0 || performance.now() < until)) {
+  while (history.length < generations && !evolution.isOver && (history.length === 0 || performance.now() < deadline)) {
     evolution.advance();
-    const novelty = evolution.components[NOVELTY];
-    history.push({
-      generation: evolution.number,
-      distance: evolution.best.distance,
-      novelty: evolution.weighNovelty ? novelty.reduce((sum, value) => sum + value) / novelty.length : null,
-      archive: evolution.archive.size,
-      endpoint: evolution.best.endpoint,
-    });
+    history.push(lineOf(evolution));
   }
   return {
     history,
@@ -64,12 +57,25 @@ function report(evolution, generations, milliseconds = Infinity) {
   };
 }
 
-function inspected(evolution, i) {
+/** What charts show of a generation. */
+function lineOf(evolution) {
+  const novelty = evolution.components[NOVELTY];
+  return {
+    generation: evolution.number,
+    distance: evolution.best.distance,
+    novelty: evolution.weighNovelty ? novelty.reduce((sum, value) => sum + value) / novelty.length : null,
+    archive: evolution.archive.size,
+    endpoint: evolution.best.endpoint,
+  };
+}
+
+/** How the i-th solution of the generation came by its novelty and fitness; null for what it does not have. */
+function inspect(evolution, i) {
   const controller = rowOf(evolution.genomes, i, WEIGHTS);
-  const judged = !evolution.isRandomSearch;
-  const winner = judged ? evolution.winners[i] : null;
-  const coefficients = judged ? rowOf(evolution.objectives, winner, COMPONENTS.length) : [];
-  const parts = coefficients.map((weight, component) => weight * evolution.components[component][i]);
+  const isJudged = !evolution.isRandomSearch;
+  const winner = isJudged ? evolution.winners[i] : null;
+  const coefficients = isJudged ? rowOf(evolution.objectives, winner, COMPONENTS.length) : [];
+  const parts = coefficients.map((coefficient, c) => coefficient * evolution.components[c][i]);
   return {
     controller,
     endpoint: rowOf(evolution.endpoints, i, 2),
@@ -77,10 +83,11 @@ function inspected(evolution, i) {
     distance: evolution.distances[i],
     novelty: evolution.weighNovelty ? evolution.components[NOVELTY][i] : null,
     neighbours: evolution.weighNovelty ? evolution.neighbours(i) : [],
-    fitness: judged ? evolution.fitness[i] : null,
+    k: evolution.parameters.k,
+    fitness: isJudged ? evolution.fitness[i] : null,
     winner,
     coefficients,
-    fromGoal: judged ? parts[GOAL] : null,
-    fromNovelty: judged ? parts[NOVELTY] : null,
+    fromGoal: isJudged ? parts[GOAL] : null,
+    fromNovelty: isJudged ? parts[NOVELTY] : null,
   };
 }

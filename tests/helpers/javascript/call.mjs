@@ -3,13 +3,22 @@
 
 import { shown } from "../../../safe/playground/javascript/checks.js";
 import {
-  NoveltyArchive, endpoints, evolve, generations, parseMaze, path,
+  endpoints,
+  evolve,
+  generations,
+  NoveltyArchive,
+  parseMaze,
+  path,
 } from "../../../safe/playground/javascript/engine.js";
 import { Evolution } from "../../../safe/playground/javascript/evolution.js";
-import { drawingOf, listOf, waysToGoal } from "../../../safe/playground/javascript/maze.js";
+import { drawingOf, waysToGoal } from "../../../safe/playground/javascript/maze.js";
+import { listOf } from "../../../safe/playground/javascript/maze_files.js";
 
 const FUNCTIONS = {
-  host: () => (globalThis.process ? `Node ${process.versions.node}` : `Chromium ${navigator.userAgent.match(/Chrom\w*\/(\d+)/)[1]}`),
+  host: () => {
+    const node = globalThis.process?.versions.node;
+    return node ? `Node ${node}` : `Chromium ${navigator.userAgent.match(/Chrom\w*\/(\d+)/)[1]}`;
+  },
   shown: ({ value }) => shown(value),
   parseMaze: ({ maze, name }) => parseMaze(maze, name),
   writtenMaze: ({ maze }) => {
@@ -50,7 +59,7 @@ function answerOne(call) {
   }
 }
 
-// Integers that a double may not hold are hexadecimal texts in JSON.
+// In JSON, integers that a double may not hold are hexadecimal texts.
 function seedOf(seed) {
   if (typeof seed === "string") return BigInt(seed);
   if (Array.isArray(seed)) return seed.map(seedOf);
@@ -58,7 +67,7 @@ function seedOf(seed) {
   return seed;
 }
 
-// JSON would make null of what it cannot write.
+// JSON would write null for a number that is not finite.
 function plain(key, value) {
   if (typeof value === "number" && !Number.isFinite(value)) throw new Error(`${key} is ${value}`);
   return ArrayBuffer.isView(value) ? Array.from(value) : value;

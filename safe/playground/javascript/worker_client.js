@@ -1,9 +1,8 @@
-// A page's side of a worker.
+// A worker, as a page sees it (see worker.js).
 
-/** A worker that answers one message after the other. */
-export class Client {
+export class WorkerClient {
   constructor(makeWorker) {
-    this.waiting = new Map();
+    this.waiting = new Map(); // by the number of a message, who waits for its answer
     this.sent = 0;
     try {
       this.worker = makeWorker();
@@ -23,17 +22,17 @@ export class Client {
     };
   }
 
-  /** The answer to a task of worker.js. */
-  ask(task, given) {
+  /** The answer to a task. */
+  ask(task, settings) {
     if (!this.worker) return Promise.reject(cannotRun());
     return new Promise((resolve, reject) => {
       const id = this.sent++;
       this.waiting.set(id, { resolve, reject });
-      this.worker.postMessage({ id, task, ...given });
+      this.worker.postMessage({ id, task, ...settings });
     });
   }
 
-  /** Stop; what was asked for and not answered never will be. */
+  /** Stop; whatever is not yet answered never will be. */
   close() {
     this.worker?.terminate();
     this.waiting.clear();
