@@ -67,7 +67,7 @@ class Algorithm:
         coefficients = checks.array("objectives", self.objectives, (None, len(COMPONENTS)), or_empty=True)
         object.__setattr__(self, "objectives", tuple(map(tuple, coefficients.tolist())))
         if self.rating != "none" and (len(coefficients) == 0 or len(coefficients) % 2):
-            raise ValueError(f"objectives must be an even number of them where they evolve; got {len(coefficients)}")
+            raise ValueError(f"objectives must be even in number if they evolve; got {len(coefficients)}")
 
     @property
     def is_random_search(self) -> bool:

@@ -42,11 +42,11 @@ def test_the_papers_parameters():
         ({"objectives": [(1e308, -1e308)]}, "objectives must be finite"),  # the sum of infinities is no score
         (
             {"objectives": [(1, 0)] * 3, "rating": "genotypic novelty"},
-            "objectives must be an even number of them where they evolve; got 3",
+            "objectives must be even in number if they evolve; got 3",
         ),
         (
             {"objectives": [], "rating": "genotypic novelty"},
-            "objectives must be an even number of them where they evolve; got 0",
+            "objectives must be even in number if they evolve; got 0",
         ),
         ({"objectives": 7}, "objectives must"),
     ],

@@ -47,7 +47,7 @@ export function checkedAlgorithm(algorithm) {
     checkedRows("objectives", objectives, COMPONENTS.length);
     if (rating !== "none" && (objectives.length === 0 || objectives.length % 2)) {
       throw new InputError(
-        `objectives must be an even number of them where they evolve; got ${objectives.length}`,
+        `objectives must be even in number if they evolve; got ${objectives.length}`,
       );
     }
   }
