@@ -8,6 +8,7 @@ from safe.algorithms import ALGORITHMS, Algorithm, Parameters
 from safe.evolution import Generation, Run, evolve, generations
 from safe.experiments.exchange import merge, verify
 from safe.experiments.experiment import Experiment, run, run_all
+from safe.experiments.store import StoreError
 from safe.maze import Maze
 from safe.maze_files import load_maze
 from safe.novelty import NoveltyArchive
@@ -23,6 +24,7 @@ __all__ = [
     "NoveltyArchive",
     "Parameters",
     "Run",
+    "StoreError",
     "__version__",
     "endpoints",
     "evolve",

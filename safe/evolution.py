@@ -47,7 +47,7 @@ Seed = int | Sequence[int] | np.random.SeedSequence
 
 @dataclass(frozen=True)
 class Run:
-    """What came of a run.
+    """The outcome of a run. Stores and tables of results take their columns from these fields, in this order.
 
     `controller` and `coefficients` belong to the best solution: the first with the smallest distance.
     In a successful run that is the successful one.
@@ -57,7 +57,7 @@ class Run:
     generation: int  # the last one, counted from 0: in a successful run, the generations to success
     distance: int  # of the best solution's end point to the goal, taxicab, in cells
     controller: tuple[float, ...]  # p_1..p_16
-    coefficients: tuple[float, ...]  # (a, b) of the objective function that gave it its fitness; () where there is none
+    coefficients: tuple[float, ...]  # (a, b) of the objective function that gave it its fitness; () in random search
     evaluations: int  # solutions evaluated
 
 

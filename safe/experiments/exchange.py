@@ -1,4 +1,4 @@
-"""Whole stores: several merged into one, and what one holds made again to see that it is right."""
+"""Whole stores: merge two of them, and verify one by making some of its runs again."""
 
 from __future__ import annotations
 
@@ -8,87 +8,92 @@ import numpy as np
 import pandas as pd
 
 from safe import checks
-from safe.algorithms import Algorithm, Parameters
 from safe.evolution import RULES, Run, evolve
-from safe.experiments.experiment import Experiment
+from safe.experiments.experiment import Experiment, row_of
 from safe.experiments.progress import bar
-from safe.experiments.store import Store, StoredExperiment
-from safe.maze import Maze
+from safe.experiments.provenance import Origin
+from safe.experiments.store import Store, StoredExperiment, StoreError
 
 
 def merge(store: str | os.PathLike, other: str | os.PathLike) -> int:
-    """Put all runs of another store into this one: those that it has already once, and where each comes from.
+    """Add the runs of another store that this one lacks, and where they come from.
 
     Parameters
     ----------
     store : path
-        The store that grows; made where there is none.
+        The store that grows; it is made if it does not exist.
     other : path
-        The other store. Nothing is added to it; one of an earlier layout is brought to that of today.
+        The other store. It keeps its runs; if it has an earlier layout, it is updated to the present one.
 
     Returns
     -------
     int
-        How many runs are new in the store.
+        How many runs were added.
 
     Raises
     ------
-    ValueError
-        Where one of them is no store or damaged, or they have different outcomes of the same run. Nothing is merged
+    StoreError
+        If one of them is no store or is damaged, or if they hold different outcomes of the same run. Nothing is merged
         then.
     """
     with Store(other, must_exist=True) as source, Store(store) as target:
-        news = []
-        for theirs in source.experiments():
-            ours = {kept.number: kept.run for known in target.experiments(theirs.digest) for kept in target.runs(known)}
-            by_batch: dict[int, list[tuple[int, Run, float]]] = {}
-            for number, run, seconds, batch in source.runs(theirs):
-                if number not in ours:
-                    by_batch.setdefault(batch, []).append((number, run, seconds))
-                elif ours[number] != run:
-                    raise ValueError(
-                        f"other must agree with the store; got {source}, where run {number} of {theirs.algorithm} on "
-                        f"{theirs.maze} {_ending(run)}, and in {target} it {_ending(ours[number])}: see what made "
-                        "either in their tables of batches"
-                    )
-            news.append((theirs, [(source.origin_of(batch), runs) for batch, runs in by_batch.items()]))
-        for theirs, batches in news:
-            experiment = target.experiment(theirs.content, theirs.digest, theirs.algorithm, theirs.maze)
+        additions = [(experiment, _lacking(target, experiment, source)) for experiment in source.experiments()]
+        for experiment, batches in additions:
+            entry = target.entry(experiment.content, experiment.algorithm, experiment.maze)
             for origin, runs in batches:
-                target.add(experiment, origin, runs)
-    return sum(len(runs) for _, batches in news for _, runs in batches)
+                target.add(entry, origin, runs)
+    return sum(len(runs) for _, batches in additions for _, runs in batches)
+
+
+def _lacking(
+    target: Store, experiment: StoredExperiment, source: Store
+) -> list[tuple[Origin, list[tuple[int, Run, float]]]]:
+    """The runs (number, run, seconds) of an experiment that `target` lacks and `source` has, by their origins."""
+    stored = {kept.number: kept.run for entry in target.experiments(experiment.digest) for kept in target.runs(entry)}
+    batches: dict[int, list[tuple[int, Run, float]]] = {}
+    for number, run, seconds, batch in source.runs(experiment):
+        if number not in stored:
+            batches.setdefault(batch, []).append((number, run, seconds))
+        elif run != stored[number]:
+            raise StoreError(
+                f"other must agree with the store; got {source}, where run {number} of {experiment.label} "
+                f"has {_difference(run, stored[number])}: see in their tables of batches what made either"
+            )
+    return [(source.origin_of(batch), runs) for batch, runs in batches.items()]
 
 
 def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, progress: bool = True) -> pd.DataFrame:
-    """Make some of the runs in a store again, and compare them with what is stored, to the last bit.
+    """Make some of the runs in a store again, and compare them with the stored ones, to the last bit.
 
-    The checksums of all runs are looked at, too. Runs made by rules that have since changed are left out.
+    The checksums of all runs are checked, too. Runs that follow earlier rules are left out.
 
     Parameters
     ----------
     store : path
         The store.
     sample : int
-        How many runs, drawn at random from all experiments; all where there are no more.
+        How many runs, drawn at random from all experiments; all runs if there are no more.
     seed : int, optional
-        Of the draw; by default every time another.
+        The seed of the draw; by default every draw differs.
     progress : bool
         As in `run`.
 
     Returns
     -------
     pandas.DataFrame
-        One row for each run that was made again and is the same: algorithm, maze, seed, run, and its outcome.
+        One row for each run that was made again and is the same: algorithm, maze, seed, run, success, generation.
 
     Raises
     ------
+    StoreError
+        If the file is no store or is damaged, or if a run in it differs from the one that its experiment makes.
     ValueError
-        Where the file is no store, or a run is not what its experiment makes.
+        If the sample or seed is no integer in range.
 
     Examples
     --------
     >>> import tempfile
-    >>> from safe import run
+    >>> from safe import Parameters, run
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     table = run(Experiment("standard", "maze1", 3, parameters=Parameters(generations=2)), f"{folder}/store")
     ...     len(verify(f"{folder}/store"))
@@ -98,48 +103,42 @@ def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, 
     draw = np.random.default_rng(None if seed is None else checks.integer("seed", seed, 0))
     with Store(store, must_exist=True) as results:
         stored = [
-            (found, kept.number)
-            for found in results.experiments()
-            if found.content.get("rules") == RULES
-            for kept in results.runs(found)
+            (entry, kept.number)
+            for entry in results.experiments()
+            if entry.content.get("rules") == RULES
+            for kept in results.runs(entry)
         ]
-        same, experiments = [], {}
         chosen = draw.choice(len(stored), min(sample, len(stored)), replace=False)
-        for found, number in bar("verifying", progress, iterable=[stored[i] for i in chosen], unit="run"):
-            if found.id not in experiments:
-                experiments[found.id] = _as_experiment(found, results)
-            experiment = experiments[found.id]
-            seed_sequence = experiment.seed_sequence(number)
-            remade = evolve(experiment.maze, experiment.algorithm, seed_sequence, experiment.parameters)
-            for kept in results.runs(found, first=number, below=number + 1):
-                if remade != kept.run:
-                    raise ValueError(
+        same, experiments = [], {}
+        for entry, number in bar("verifying", progress, iterable=[stored[i] for i in chosen], unit="run"):
+            if entry.id not in experiments:
+                experiments[entry.id] = _experiment(entry, results)
+            experiment = experiments[entry.id]
+            remade = evolve(
+                experiment.maze, experiment.algorithm, experiment.seed_sequence(number), experiment.parameters
+            )
+            for kept in results.runs(entry, first=number, below=number + 1):
+                if kept.run != remade:
+                    raise StoreError(
                         f"store must hold what its experiments make; got {results}, where run {number} of "
-                        f"{found.algorithm} on {found.maze}, seed {experiment.seed}, {_ending(kept.run)}, and made "
-                        f"again it {_ending(remade)}"
+                        f"{entry.label}, seed {experiment.seed}, has {_difference(kept.run, remade)}"
                     )
-            same.append((found.algorithm, found.maze, experiment.seed, number, remade.success, remade.generation))
+            same.append((entry.algorithm, entry.maze, experiment.seed, number, remade.success, remade.generation))
     return pd.DataFrame(same, columns=["algorithm", "maze", "seed", "run", "success", "generation"])
 
 
-def _ending(run: Run) -> str:
-    """How a run ends, in words, with what tells two controllers apart."""
-    return f"ends {run.distance} from the goal in generation {run.generation}, with p1 = {run.controller[0]}"
-
-
-def _as_experiment(stored: StoredExperiment, store: Store) -> Experiment:
-    content = stored.content
+def _experiment(entry: StoredExperiment, store: Store) -> Experiment:
     try:
-        experiment = Experiment(
-            Algorithm(stored.algorithm, **content["algorithm"]),
-            Maze.from_drawing(content["maze"], stored.maze),
-            seed=content["seed"],
-            parameters=Parameters(**content["parameters"]),
-        )
-        if experiment.digest == stored.digest:
-            return experiment
-    except (KeyError, TypeError, ValueError):
-        pass  # of a version that knows more
-    raise ValueError(
-        f"store must hold experiments that this version can make; got {store}, with {stored.algorithm} on {stored.maze}"
-    )
+        return Experiment.from_content(entry.content, entry.algorithm, entry.maze)
+    except ValueError as error:  # a newer version made it
+        raise StoreError(
+            f"store must hold experiments that this version can make; got {store}, with {entry.label} "
+            f"({checks.reason(error)})"
+        ) from None
+
+
+def _difference(run: Run, expected: Run) -> str:
+    """The first column of the results in which a run differs from the expected one."""
+    row, expected_row = row_of(run), row_of(expected)
+    column = next(column for column in row | expected_row if row.get(column) != expected_row.get(column))
+    return f"{column} {row.get(column)} instead of {expected_row.get(column)}"

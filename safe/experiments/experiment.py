@@ -1,40 +1,34 @@
 """Experiments: many independent runs of one algorithm on one maze.
 
-What an experiment is follows from its content alone: the algorithm's objective functions and rating, the maze's cells,
-the parameters, the seed, and the version of the rules by which runs are made. Labels and the number of runs do not
-count: 500 runs are the 100 made before and 400 more. The randomness of run r is spawned from a digest of the content
-and r, so a run depends on nothing else: not on the executor, on how many runs there are, or on what ran before.
+Its content alone identifies an experiment: the algorithm's objective functions and rating, the maze's cells, the
+parameters, the seed, and the version of the rules that runs follow. Names and the number of runs do not count: 500 runs
+are the 100 made earlier and 400 more. The randomness of run r is spawned from a digest of the content and from r. So a
+run depends on nothing else: not on the executor, on how many runs there are, or on what ran earlier.
 """
 
 from __future__ import annotations
 
-import hashlib
-import json
 import os
-import time
-from collections import deque
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
-from contextlib import suppress
-from dataclasses import dataclass
+from concurrent.futures import Executor
+from dataclasses import dataclass, fields
 from functools import cached_property
-from queue import Empty, SimpleQueue
-from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 
 from safe import checks
 from safe.algorithms import COEFFICIENTS, Algorithm, Parameters, get_algorithm
-from safe.evolution import RULES, Generation, Run, compile_kernels, evolve_until_stopped, generations
-from safe.experiments.progress import bar as progress_bar
-from safe.experiments.store import Store, StoredExperiment, StoredRun, origin
+from safe.evolution import RULES, Generation, Run, generations
+from safe.experiments.dispatch import Dispatcher
+from safe.experiments.store import Store, content_text, sha256
 from safe.maze import Maze
 from safe.maze_files import load_maze
 from safe.robot import WEIGHTS
 
-MOST_SEEDS = 2**128  # as many as numpy draws from where it is asked for a seed
+MOST_SEEDS = 2**128  # numpy, too, draws from so many if it is asked for a seed
 WEIGHT_COLUMNS = [f"p{i}" for i in range(1, WEIGHTS + 1)]
+_COLUMNS_OF = {"controller": WEIGHT_COLUMNS, "coefficients": COEFFICIENTS}  # every other field of Run is one column
 
 
 @dataclass(frozen=True)
@@ -48,7 +42,7 @@ class Experiment:
     maze : Maze or str
         The maze, its name, or the path of its file.
     runs : int
-        How many; they are numbered from 0.
+        How many runs; they are numbered from 0.
     seed : int
         Another seed gives other runs.
     parameters : Parameters
@@ -57,7 +51,7 @@ class Experiment:
     Raises
     ------
     ValueError
-        Where a name is unknown or a number is out of range.
+        If a name is unknown or a number is out of range.
 
     Examples
     --------
@@ -85,9 +79,10 @@ class Experiment:
 
     @property
     def content(self) -> dict:
-        """What makes this experiment this one and no other, ready for JSON.
+        """What identifies this experiment, ready for JSON.
 
-        Parameters are listed where they depart from the paper's: one added later leaves old experiments what they are.
+        Only parameters that depart from the paper's are listed, so a parameter that is added later changes no old
+        experiment.
         """
         return {
             "rules": RULES,
@@ -97,13 +92,42 @@ class Experiment:
             "parameters": self.parameters.departures,
         }
 
+    @classmethod
+    def from_content(cls, content: dict, algorithm: str, maze: str, runs: int = 500) -> Experiment:
+        """The experiment with this content; `algorithm` and `maze` are names for what the content describes.
+
+        Raises
+        ------
+        ValueError
+            If this version cannot make the experiment: the content has other rules, or names or values unknown to it.
+
+        Examples
+        --------
+        >>> experiment = Experiment("safe", "maze1", seed=3)
+        >>> Experiment.from_content(experiment.content, "safe", "maze1") == experiment
+        True
+        """
+        try:
+            experiment = cls(
+                Algorithm(algorithm, **content["algorithm"]),
+                Maze.from_drawing(content["maze"], maze),
+                runs,
+                content["seed"],
+                Parameters(**content["parameters"]),
+            )
+        except (KeyError, TypeError):  # a name is missing or unknown
+            experiment = None
+        if experiment is None or content_text(experiment.content) != content_text(content):
+            raise ValueError(f"content must be one that this version writes; got {checks.shown(content)}")
+        return experiment
+
     @cached_property
     def digest(self) -> str:
         """SHA-256 of the content, in hexadecimal."""
-        return hashlib.sha256(json.dumps(self.content, sort_keys=True).encode()).hexdigest()
+        return sha256(content_text(self.content))
 
     def seed_sequence(self, run: int) -> np.random.SeedSequence:
-        """Where the randomness of one run starts from; `safe.evolve` makes that run of it (see also `replay`).
+        """The seed of one run, from which `safe.evolve` makes the same run again (see also `replay`).
 
         Examples
         --------
@@ -117,7 +141,7 @@ class Experiment:
         return np.random.SeedSequence(int(self.digest, 16), spawn_key=(run,))
 
     def replay(self, run: int) -> Iterator[Generation]:
-        """One run again, generation by generation, whether it is in a store or not.
+        """Make one run again, generation by generation, whether a store holds it or not.
 
         Examples
         --------
@@ -134,32 +158,33 @@ def run(
     executor: Executor | None = None,
     progress: bool = True,
 ) -> pd.DataFrame:
-    """The results of an experiment: those in the store, and the missing ones, computed now.
+    """The results of an experiment: the runs in the store, and the missing ones, which are computed now.
 
-    Runs are computed in batches of about half a second, and kept in the store as these come back, so an interrupted
-    experiment goes on where it stopped.
+    Runs are stored as soon as they come back, so an interrupted experiment continues where it stopped.
 
     Parameters
     ----------
     experiment : Experiment
     store : path, optional
-        The SQLite file that keeps the results; made where there is none. Without it nothing is kept.
+        The SQLite file that keeps the results; it is made if it does not exist. Without a store nothing is kept.
     executor : concurrent.futures.Executor, optional
         What computes the runs; by default one thread for each core that this process may use.
     progress : bool
-        Show a progress bar, where somebody watches: in a terminal or a notebook, not in a log.
+        Show a progress bar if somebody watches: in a terminal or a notebook, but not in a log.
 
     Returns
     -------
     pandas.DataFrame
         One row for each run, in order: run, success, generation (the last one; in a successful run the generations to
         success), distance (of the best solution, taxicab, in cells), p1..p16 (its controller), a, b (the objective
-        function that gave it its fitness; not in random search), evaluations, seconds.
+        function that gave it its fitness; absent in random search), evaluations, seconds.
 
     Raises
     ------
+    StoreError
+        If the store is no results store, cannot be read or written, or is damaged.
     ValueError
-        Where the store is none.
+        If the executor is none, or computes by other rules.
 
     Examples
     --------
@@ -173,13 +198,12 @@ def run(
     if executor is not None and not isinstance(executor, Executor):
         raise ValueError(f"executor must be a concurrent.futures.Executor; got {checks.shown(executor)}")
     with Store(store) as results:
-        stored = results.experiment(
-            experiment.content, experiment.digest, experiment.algorithm.name, experiment.maze.name
-        )
-        missing = sorted(set(range(experiment.runs)) - results.finished(stored))
+        entry = results.entry(experiment.content, experiment.algorithm.name, experiment.maze.name)
+        missing = sorted(set(range(experiment.runs)) - results.finished(entry))
         if missing:
-            _compute(experiment, stored, missing, results, executor, progress)
-        return _table(experiment, results.runs(stored, experiment.runs))
+            Dispatcher(experiment, results, entry, executor).compute(missing, progress)
+        stored = results.runs(entry, experiment.runs)
+    return pd.DataFrame([{"run": number, **row_of(run), "seconds": seconds} for number, run, seconds, _ in stored])
 
 
 def run_all(
@@ -190,7 +214,7 @@ def run_all(
     store: str | os.PathLike | None = None,
     executor: Executor | None = None,
 ) -> dict[Experiment, pd.DataFrame]:
-    """The results of every algorithm on every maze, maze by maze; arguments and errors are those of Experiment and run.
+    """The results of every algorithm on every maze, maze by maze; for arguments and errors see Experiment and run.
 
     Examples
     --------
@@ -202,146 +226,18 @@ def run_all(
     return {experiment: run(experiment, store, executor) for experiment in experiments}
 
 
-def _compute(
-    experiment: Experiment,
-    stored: StoredExperiment,
-    missing: list[int],
-    results: Store,
-    executor: Executor | None,
-    progress: bool,
-) -> None:
-    """Compute the missing runs, and keep them as they come back."""
-    compile_kernels()
-    pool = executor if executor is not None else ThreadPoolExecutor(_cores())
-    stop = np.zeros(1, dtype=bool)  # seen by threads; other processes have a copy, and finish what they are at
-    waiting = deque(missing)
-    in_flight: set[Future] = set()
-    back: SimpleQueue[Future] = SimpleQueue()
-    runs, seconds, successes = 0, 0.0, results.successes(stored, experiment.runs)
-
-    def send(most: int) -> None:
-        """Batches of one run until it is known how long a run takes."""
-        while waiting and len(in_flight) < most:
-            size = _batch_size(len(waiting), seconds / runs) if runs else 1
-            future = pool.submit(_make, experiment, [waiting.popleft() for _ in range(size)], stop)
-            in_flight.add(future)
-            future.add_done_callback(back.put)
-
-    bar = progress_bar(
-        f"{experiment.algorithm.name} on {experiment.maze.name}",
-        progress,
-        total=experiment.runs,
-        initial=experiment.runs - len(missing),
-        unit="run",
-    )
-    try:
-        send(FIRST_IN_FLIGHT)
-        while in_flight:
-            try:
-                future = back.get(timeout=None if runs else BATCH_SECONDS)
-            except Empty:  # runs are long: each is a batch, and however many cores there are shall have one
-                send(MOST_IN_FLIGHT)
-                continue
-            batch = _keep(future, results, stored)
-            in_flight.discard(future)  # not before: what an interruption leaves is kept below
-            if batch.failure is not None:
-                raise batch.failure
-            runs += len(batch.runs)
-            seconds += sum(duration for _, _, duration in batch.runs)
-            successes += sum(outcome.success for _, outcome, _ in batch.runs)
-            bar.set_postfix(successes=successes, refresh=False)
-            bar.update(len(batch.runs))
-            send(MOST_IN_FLIGHT)
-    except BaseException as error:
-        stop[0] = True
-        for future in in_flight:
-            future.cancel()
-        wait(in_flight, timeout=None if executor is None else 0.5)  # threads stop after a generation
-        with suppress(ValueError):  # of the store, where that is what has gone wrong
-            for future in in_flight:
-                if future.done() and not future.cancelled() and future.exception() is None:
-                    _keep(future, results, stored)
-        with suppress(ValueError):
-            error.add_note(_what_is_kept(experiment, results, stored))
-        raise
-    finally:
-        bar.close()
-        if executor is None:
-            pool.shutdown()
-
-
-def _keep(future: Future, results: Store, stored: StoredExperiment) -> Batch:
-    """Keep what has come back."""
-    batch = future.result()
-    if batch.rules != RULES:
-        raise ValueError(f"executor must compute by the rules {RULES} of this version; got {batch.rules}")
-    results.add(stored, batch.origin, batch.runs)
-    return batch
-
-
-def _what_is_kept(experiment: Experiment, results: Store, stored: StoredExperiment) -> str:
-    kept = len(results.finished(stored).intersection(range(experiment.runs)))
-    if results.path is None:
-        return f"{kept} of {experiment.runs} runs were finished; without a store they are not kept"
-    return (
-        f"{kept} of {experiment.runs} runs are kept in {results.path}; "
-        "the same experiment asked for again computes the rest"
-    )
-
-
-FIRST_IN_FLIGHT = 16
-MOST_IN_FLIGHT = 2000  # batches: enough for a thousand cores, and no burden to one
-BATCH_SECONDS = 0.5  # of work, next to which sending it is little
-
-
-def _batch_size(waiting: int, seconds: float) -> int:
-    """How many runs of so many seconds each are sent at once; fewer towards the end, so that all cores end together."""
-    return max(1, min(int(BATCH_SECONDS / seconds), waiting // 32))
-
-
-class Batch(NamedTuple):
-    """Finished runs, and what made them."""
-
-    rules: int
-    origin: dict[str, str | None]
-    runs: list[tuple[int, Run, float]]  # number, outcome, seconds
-    failure: Exception | None  # that of the run after these
-
-
-def _make(experiment: Experiment, numbers: list[int], stop: np.ndarray) -> Batch:
-    """Some runs of an experiment, wherever the executor sends them; those before `stop` where it is set meanwhile."""
-    compile_kernels()
-    runs: list[tuple[int, Run, float]] = []
-    failure = None
-    for number in numbers:
-        started = time.perf_counter()
-        seed = experiment.seed_sequence(number)
-        try:
-            outcome = evolve_until_stopped(stop, experiment.maze, experiment.algorithm, seed, experiment.parameters)
-        except Exception as error:
-            failure = error
-            break
-        if outcome is None:
-            break
-        runs.append((number, outcome, time.perf_counter() - started))
-    return Batch(RULES, origin(), runs, failure)
-
-
 def controller_of(row: pd.Series) -> np.ndarray:
     """The controller in one row of the results, array of float of shape (16,)."""
     return row[WEIGHT_COLUMNS].to_numpy(dtype=np.float64)
 
 
-def _table(experiment: Experiment, runs: list[StoredRun]) -> pd.DataFrame:
-    coefficients = [] if experiment.algorithm.is_random_search else COEFFICIENTS
-    columns = ["run", "success", "generation", "distance", *WEIGHT_COLUMNS, *coefficients, "evaluations", "seconds"]
-    rows = [
-        (number, o.success, o.generation, o.distance, *o.controller, *o.coefficients, o.evaluations, seconds)
-        for number, o, seconds, _ in runs
-    ]
-    return pd.DataFrame(rows, columns=columns)
-
-
-def _cores() -> int:
-    """How many cores this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+def row_of(run: Run) -> dict[str, bool | int | float]:
+    """A run as a row of the results."""
+    row = {}
+    for field in fields(Run):
+        value = getattr(run, field.name)
+        if field.name in _COLUMNS_OF:
+            row |= zip(_COLUMNS_OF[field.name], value, strict=False)  # random search has no coefficients
+        else:
+            row[field.name] = value
+    return row

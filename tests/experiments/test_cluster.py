@@ -1,4 +1,4 @@
-"""A Dask cluster for real: a scheduler and three workers in processes of their own, one of which is killed."""
+"""A real Dask cluster: a scheduler and three workers, each a process, one of which is killed."""
 
 import subprocess
 import sys
@@ -39,7 +39,7 @@ def cluster(tmp_path_factory):
         process.wait()
 
 
-def test_a_worker_is_killed_and_the_table_is_that_of_threads(cluster, tmp_path):
+def test_a_killed_worker_changes_no_table(cluster, tmp_path):
     client, workers = cluster
     store = tmp_path / "s.sqlite"
     with run_in_background(store, client) as running:
@@ -55,7 +55,7 @@ def test_a_worker_is_killed_and_the_table_is_that_of_threads(cluster, tmp_path):
 
 def kept(path):
     with Store(path) as store:
-        return len(store.finished(store.experiment(EXPERIMENT.content, EXPERIMENT.digest, "safe", "maze2")))
+        return len(store.finished(store.entry(EXPERIMENT.content, "safe", "maze2")))
 
 
 def run_in_background(store, client):
@@ -70,12 +70,12 @@ safe.run(experiment, {str(store)!r}, executor_at({address!r}))
     return subprocess.Popen([sys.executable, "-c", code])
 
 
-def test_what_a_worker_did_is_told(cluster, tmp_path):
+def test_the_store_says_what_the_workers_were(cluster, tmp_path):
     client, _ = cluster
     run(replace(EXPERIMENT, runs=2), tmp_path / "s.sqlite", client.get_executor(), progress=False)
     with Store(tmp_path / "s.sqlite") as store:
         (found,) = store.experiments()
-        assert store.origin_of(store.runs(found)[0].batch)["python"] == sys.version.split()[0]
+        assert store.origin_of(store.runs(found)[0].batch).python == sys.version.split()[0]
 
 
 def test_without_a_scheduler_there_is_no_executor():
@@ -83,13 +83,13 @@ def test_without_a_scheduler_there_is_no_executor():
 
 
 @pytest.mark.parametrize("address", ["nowhere", "tcp://127.0.0.1:1", 7])
-def test_addresses_of_no_scheduler(address):
+def test_bad_addresses(address):
     with pytest.raises(ValueError, match="scheduler must be the address of a running Dask scheduler"):
         executor_at(address, patience=1)
 
 
-def test_an_address_that_is_none_blocks_nobody():
-    """As it would where the garbage collector takes a client that was refused while another begins."""
+def test_a_refused_address_blocks_no_later_client():
+    """It would if the garbage collector took the refused client while another one starts."""
     code = """
 import gc
 from distributed.utils import LoopRunner

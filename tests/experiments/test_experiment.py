@@ -1,25 +1,13 @@
-from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+import json
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
-import pandas as pd
 import pytest
 
 import safe
 from safe import Algorithm, Experiment, Maze, Parameters, run
 from safe.experiments import experiment as module
-
-SHORT = Parameters(generations=4)
-EXPERIMENT = Experiment("safe", "maze1", runs=12, seed=3, parameters=SHORT)
-
-
-def results(experiment, *arguments, **options):
-    """The table, without the time it took."""
-    return run(experiment, *arguments, progress=False, **options).drop(columns="seconds")
-
-
-@pytest.fixture(scope="module")
-def uninterrupted():
-    return results(EXPERIMENT)
+from tests.experiments import EXPERIMENT
 
 
 def test_one_row_a_run(uninterrupted):
@@ -31,7 +19,7 @@ def test_one_row_a_run(uninterrupted):
     assert uninterrupted.run.tolist() == list(range(12))
     assert uninterrupted.success.dtype == bool
     for row in uninterrupted.itertuples():
-        replayed = safe.evolve("maze1", "safe", EXPERIMENT.seed_sequence(row.run), SHORT)
+        replayed = safe.evolve("maze1", "safe", EXPERIMENT.seed_sequence(row.run), EXPERIMENT.parameters)
         assert (row.success, row.generation, row.distance) == (
             replayed.success,
             replayed.generation,
@@ -43,133 +31,18 @@ def test_one_row_a_run(uninterrupted):
 
 
 def test_random_search_has_no_coefficients():
-    table = results(replace(EXPERIMENT, algorithm="random", runs=2))
-    assert "a" not in table
+    table = run(replace(EXPERIMENT, algorithm="random", runs=2), progress=False)
+    assert [*table][-3:] == ["p16", "evaluations", "seconds"]
     assert len(table) == 2
 
 
-class InThisThread(Executor):
-    """Computes each batch at once, counts the runs, and fails after so many where it is told to."""
-
-    def __init__(self, stop_before=None, error=KeyboardInterrupt):
-        self.runs, self.batches, self.stop_before, self.error = 0, 0, stop_before, error
-
-    def submit(self, function, experiment, numbers, stop):
-        if self.runs == self.stop_before:
-            raise self.error
-        self.runs += len(numbers)
-        self.batches += 1
-        future = Future()
-        future.set_result(function(experiment, numbers, stop))
-        return future
-
-
-def test_the_executor_does_not_matter(uninterrupted):
-    with ThreadPoolExecutor(1) as one, ThreadPoolExecutor(5) as five, ProcessPoolExecutor(2) as processes:
-        for executor in (one, five, processes, InThisThread()):
-            pd.testing.assert_frame_equal(results(EXPERIMENT, executor=executor), uninterrupted)
-
-
-def test_short_runs_travel_together_and_long_ones_alone():
-    executor = InThisThread()
-    table = results(replace(EXPERIMENT, runs=600), executor=executor)
-    assert executor.runs == len(table) == 600
-    assert executor.batches < 300
-    assert module._batch_size(10_000, seconds=0.01) == 50
-    assert module._batch_size(10_000, seconds=9.0) == 1
-    # towards the end few, so that nobody waits for one who has many left
-    assert module._batch_size(64, seconds=1e-4) == 2
-    assert module._batch_size(1, seconds=1e-4) == 1
-
-
-def test_many_cores_do_not_wait_for_the_first_long_run():
-    class Large(InThisThread):
-        """Gives nothing back until it has got all."""
-
-        def submit(self, *arguments):
-            done = super().submit(*arguments)
-            waiting.append((Future(), done.result()))
-            given = waiting[-1][0]
-            if self.runs == 60:
-                for future, result in waiting:
-                    future.set_result(result)
-            return given
-
-    waiting = []
-    assert len(results(replace(EXPERIMENT, runs=60), executor=Large())) == 60
-    assert len(waiting) == 60
-
-
-def test_what_computes_by_other_rules_is_refused(tmp_path):
-    class Elsewhere(InThisThread):
-        def submit(self, *arguments):
-            future = super().submit(*arguments)
-            other = Future()
-            other.set_result(future.result()._replace(rules=99))
-            return other
-
-    with pytest.raises(ValueError, match="executor must compute by the rules 1 of this version; got 99"):
-        results(EXPERIMENT, tmp_path / "s.sqlite", Elsewhere())
-    rest = InThisThread()
-    results(EXPERIMENT, tmp_path / "s.sqlite", rest)
-    assert rest.runs == 12
-
-
 @pytest.mark.parametrize("executor", [7, "threads", ThreadPoolExecutor])
-def test_what_is_no_executor(executor):
+def test_bad_executors(executor):
     with pytest.raises(ValueError, match=r"executor must be a concurrent\.futures\.Executor; got"):
         run(EXPERIMENT, executor=executor)
 
 
-def test_a_callers_executor_is_left_open():
-    with ThreadPoolExecutor(2) as pool:
-        results(EXPERIMENT, executor=pool)
-        assert pool.submit(int).result() == 0
-
-
-def test_only_missing_runs_are_computed(tmp_path, uninterrupted):
-    store = tmp_path / "s.sqlite"
-    for runs, computed in ((5, 5), (5, 0), (12, 7), (3, 0)):
-        executor = InThisThread()
-        table = results(replace(EXPERIMENT, runs=runs), store, executor)
-        assert executor.runs == computed
-        pd.testing.assert_frame_equal(table, uninterrupted[:runs])
-
-
-@pytest.mark.parametrize("error", [KeyboardInterrupt, MemoryError])
-def test_interrupted_and_asked_for_again(tmp_path, uninterrupted, error):
-    store = tmp_path / "s.sqlite"
-    with pytest.raises(error) as caught:
-        results(EXPERIMENT, store, InThisThread(stop_before=5, error=error))
-    assert caught.value.__notes__ == [
-        f"5 of 12 runs are kept in {store}; the same experiment asked for again computes the rest"
-    ]
-    with pytest.raises(error) as caught:
-        results(EXPERIMENT, None, InThisThread(stop_before=5, error=error))
-    assert caught.value.__notes__ == ["5 of 12 runs were finished; without a store they are not kept"]
-    rest = InThisThread()
-    pd.testing.assert_frame_equal(results(EXPERIMENT, store, rest), uninterrupted)
-    assert rest.runs == 7
-
-
-def test_a_failing_run_is_told_and_the_others_are_kept(tmp_path, monkeypatch, uninterrupted):
-    store, really = tmp_path / "s.sqlite", module.evolve_until_stopped
-
-    def evolve_until_stopped(stop, maze, algorithm, seed, parameters):
-        if seed.spawn_key == (4,):
-            raise RuntimeError("no luck")
-        return really(stop, maze, algorithm, seed, parameters)
-
-    with monkeypatch.context() as patch:
-        patch.setattr(module, "evolve_until_stopped", evolve_until_stopped)
-        with pytest.raises(RuntimeError, match="no luck"):
-            results(EXPERIMENT, store, InThisThread())
-    rest = InThisThread()
-    pd.testing.assert_frame_equal(results(EXPERIMENT, store, rest), uninterrupted)
-    assert rest.runs == 1
-
-
-def test_what_an_experiment_is():
+def test_what_identifies_an_experiment():
     same = [
         replace(EXPERIMENT, runs=500),
         replace(EXPERIMENT, algorithm=Algorithm("by another name", rating="genotypic novelty")),
@@ -193,8 +66,49 @@ def test_rules_that_have_changed_make_another_experiment(monkeypatch):
 
 
 def test_the_digest_that_random_streams_are_spawned_from():
-    """Were this to change, every table would: raise RULES, and say so in the changelog."""
+    """If this changes, so does every table: raise RULES, and say so in the changelog."""
     assert Experiment("safe", "maze1").digest[:16] == "33ae0854440296ca"
+
+
+@pytest.mark.parametrize(
+    "experiment",
+    [
+        *(Experiment(algorithm, "maze2", runs=7, seed=2**100) for algorithm in safe.ALGORITHMS),
+        EXPERIMENT,
+        Experiment(Algorithm("frozen", objectives=None), Maze.from_drawing("S.G", "tiny")),
+        Experiment(Algorithm("two", [(0.1, 1 / 3), (0, 1)], "genotypic novelty"), "maze1"),
+        Experiment("safe", "maze1", parameters=Parameters(mutation=0.1, k=3, elites=0)),
+    ],
+    ids=lambda experiment: experiment.algorithm.name,
+)
+def test_an_experiment_follows_from_its_content(experiment):
+    content = json.loads(json.dumps(experiment.content))
+    same = Experiment.from_content(content, experiment.algorithm.name, experiment.maze.name, experiment.runs)
+    assert same == experiment
+    assert same.digest == experiment.digest
+    assert (same.algorithm.name, same.maze.name) == (experiment.algorithm.name, experiment.maze.name)
+
+
+@pytest.mark.parametrize(
+    ("change", "complaint"),
+    [
+        ({"rules": 99}, "content must be one that this version writes"),
+        ({"weather": "fine"}, "content must be one"),
+        ({"algorithm": {"rating": "none", "objectives": [], "pool": "repertoire"}}, "content must be one"),
+        ({"algorithm": {"rating": "pearson", "objectives": None}}, "rating must be one of"),
+        ({"algorithm": None}, "content must be one"),
+        ({"parameters": {"weather": "fine"}}, "content must be one"),
+        ({"parameters": {"k": 15}}, "content must be one"),  # the paper's, which no content lists
+        ({"parameters": {"k": -1}}, "k must be an integer"),
+        ({"maze": "S?G"}, "must"),
+    ],
+)
+def test_contents_that_this_version_cannot_make(change, complaint):
+    with pytest.raises(ValueError, match=f"{complaint}.*; got ") as caught:
+        Experiment.from_content(EXPERIMENT.content | change, "safe", "maze1")
+    assert "\n" not in str(caught.value)
+    with pytest.raises(ValueError, match="content must be one"):
+        Experiment.from_content({}, "safe", "maze1")
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Nothing that was finished is lost: not when a process is killed, not when several write at once, not by Ctrl-C."""
+"""No finished run is lost: not if a process is killed, not if several write at once, not by Ctrl-C."""
 
 import multiprocessing
 import random
@@ -20,7 +20,7 @@ KILLS = 50
 ENDLESS = """
 import signal, sys, safe
 from safe.evolution import compile_kernels
-signal.signal(signal.SIGINT, signal.default_int_handler)  # a process in the background may have been told to ignore it
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a background process may ignore it
 compile_kernels()
 print("ready", flush=True)
 parameters = safe.Parameters(generations=1_000_000, success_distance=0)
@@ -36,37 +36,38 @@ def uninterrupted():
 @pytest.fixture(scope="module")
 def processes():
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(["tests.helpers.killed"])
+    # the main program may be pytest's script: each process would import pytest first, and be killed before any run
+    context.set_forkserver_preload(["pytest", "tests.helpers.killed"])
     return context
 
 
 def kept(path):
-    """What is kept of the experiment."""
+    """The runs of the experiment that a store holds."""
     with Store(path) as store:
-        return store.runs(store.experiment(EXPERIMENT.content, EXPERIMENT.digest, "safe", "maze2"))
+        return store.runs(store.entry(EXPERIMENT.content, "safe", "maze2"))
 
 
-def assert_same_but_for_time(table, expected):
+def assert_same_except_for_time(table, expected):
     pd.testing.assert_frame_equal(table.drop(columns="seconds"), expected.drop(columns="seconds"))
 
 
-def test_killed_at_many_random_moments_and_asked_for_again(tmp_path, processes, uninterrupted):
+def test_killed_at_many_random_moments_and_run_again(tmp_path, processes, uninterrupted):
     store, moments = tmp_path / "s.sqlite", random.Random(1)
-    before, in_the_middle = {}, 0
+    before, alive = {}, 0
     for _ in range(KILLS):
         process = processes.Process(target=work, args=(store, EXPERIMENT.runs))
         process.start()
         time.sleep(moments.uniform(0, 0.25))
-        in_the_middle += process.is_alive()
+        alive += process.is_alive()
         process.kill()
         process.join()
         now = {r.number: r.seconds for r in kept(store)}
-        assert before.items() <= now.items()  # kept, and not made again in another time
+        assert before.items() <= now.items()  # the same runs: made again, they would have taken another time
         before = now
-    assert in_the_middle > KILLS // 2
+    assert alive > KILLS // 2
     assert 0 < len(before) < EXPERIMENT.runs
     table = run(EXPERIMENT, store, progress=False)
-    assert_same_but_for_time(table, uninterrupted)
+    assert_same_except_for_time(table, uninterrupted)
     assert table.seconds[list(before)].tolist() == list(before.values())
 
 
@@ -79,10 +80,10 @@ def test_processes_that_run_overlapping_experiments_into_one_new_store(tmp_path,
         process.join(timeout=120)
     assert [process.exitcode for process in started] == [0, 0, 0]
     assert [r.number for r in kept(store)] == list(range(EXPERIMENT.runs))
-    assert_same_but_for_time(run(EXPERIMENT, store, progress=False), uninterrupted)
+    assert_same_except_for_time(run(EXPERIMENT, store, progress=False), uninterrupted)
 
 
-def test_ctrl_c_ends_runs_of_any_length_and_tells_how_to_go_on(tmp_path):
+def test_ctrl_c_ends_runs_of_any_length_and_says_how_to_go_on(tmp_path):
     process = subprocess.Popen(
         [sys.executable, "-c", ENDLESS, tmp_path / "s.sqlite"],
         stdout=subprocess.PIPE,
@@ -95,7 +96,7 @@ def test_ctrl_c_ends_runs_of_any_length_and_tells_how_to_go_on(tmp_path):
     _, complaint = process.communicate(timeout=10)  # one run would take many minutes
     assert process.returncode != 0
     assert "0 of 80 runs are kept in" in complaint
-    assert "the same experiment asked for again computes the rest" in complaint
+    assert "run the experiment again to compute the rest" in complaint
 
 
 def test_interrupted_in_a_notebook(tmp_path):
@@ -103,19 +104,23 @@ def test_interrupted_in_a_notebook(tmp_path):
     try:
         store = tmp_path / "s.sqlite"
         long = f"safe.Experiment('safe', 'maze2', {EXPERIMENT.runs * 100}, 5, safe.Parameters(generations=20))"
-        client.execute(f"import safe; safe.run({long}, {str(store)!r})")
+        asked = client.execute(f"import safe; safe.run({long}, {str(store)!r})")
         deadline = time.monotonic() + 60
         while not (store.exists() and kept(store)):
             assert time.monotonic() < deadline
             time.sleep(0.05)
         manager.interrupt_kernel()
-        reply = client.get_shell_msg(timeout=10)["content"]
+        while (message := client.get_shell_msg(timeout=10))["parent_header"]["msg_id"] != asked:
+            pass  # a late answer to the client's greeting
     finally:
         client.stop_channels()
         manager.shutdown_kernel(now=True)
+    reply = message["content"]
     assert reply["ename"] == "KeyboardInterrupt"
-    assert f"of {EXPERIMENT.runs * 100} runs are kept in {store}; the same experiment" in "\n".join(reply["traceback"])
+    assert f"of {EXPERIMENT.runs * 100} runs are kept in {store}; run the experiment again" in "\n".join(
+        reply["traceback"]
+    )
     runs = kept(store)
     table = run(replace(EXPERIMENT, runs=5), store, progress=False)
     assert len(runs) > 0
-    assert_same_but_for_time(table, run(replace(EXPERIMENT, runs=5), progress=False))
+    assert_same_except_for_time(table, run(replace(EXPERIMENT, runs=5), progress=False))

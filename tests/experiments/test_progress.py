@@ -1,4 +1,4 @@
-"""What is shown while one waits, and where: in a terminal, not in a log."""
+"""What a user sees while waiting, and where: in a terminal, not in a log."""
 
 import os
 import pty
@@ -14,7 +14,7 @@ RUN = "import safe; safe.run(safe.Experiment('standard', 'maze1', runs=3, parame
 
 
 def seen_in_a_terminal(code, **environment):
-    """What a Python program writes to stderr where that is a terminal."""
+    """What a Python program writes to stderr if that is a terminal."""
     ours, theirs = pty.openpty()
     termios.tcsetwinsize(theirs, (24, 100))
     with subprocess.Popen([sys.executable, "-c", code], stderr=theirs, env=os.environ | environment):
@@ -37,7 +37,7 @@ def test_progress_in_a_terminal_and_silence_in_a_log():
     assert "successes=0" in shown
 
 
-def test_compiling_is_shown_where_it_takes_place(tmp_path):
+def test_compiling_is_shown_only_when_it_takes_place(tmp_path):
     code = "from safe.kernel import kernel, while_compiling\n" + (
         "@kernel\ndef double(x):\n    return 2 * x\n\nwith while_compiling():\n    assert double(3) == 6"
     )
@@ -53,7 +53,7 @@ def test_a_bar_can_be_switched_off():
     assert seen_in_a_terminal(RUN.replace(")))", ")), progress=False)")) == ""
 
 
-def test_another_thread_that_began_to_compile_before():
+def test_another_thread_that_began_to_compile_earlier():
     with while_compiling():
         event = numba.core.event.Event("numba:compile", numba.core.event.EventStatus.END)
         numba.core.event.broadcast(event)

@@ -8,50 +8,49 @@ from dataclasses import replace
 import pandas as pd
 import pytest
 
-from safe import Experiment, Parameters, run, verify
+from safe import StoreError, run, verify
 from safe.evolution import Run
-from safe.experiments.store import Store, origin
+from safe.experiments.provenance import origin
+from safe.experiments.store import Store
+from tests.experiments import EXPERIMENT
 
-EXPERIMENT = Experiment("safe", "maze1", runs=12, seed=3, parameters=Parameters(generations=4))
 RUN = Run(True, 141, 2, (0.1, -1e-300, 1 / 3), (0.85, 0.99), 28_400)
 
 
-def experiment(store, seed=1):
-    content = {"seed": seed}
-    digest = hashlib.sha256(json.dumps(content).encode()).hexdigest()
-    return store.experiment(content, digest, "safe", "maze1")
+def entry(store, seed=1):
+    return store.entry({"seed": seed}, "safe", "maze1")
 
 
-def kept(store, below=None):
-    return [(run.number, run.run, run.seconds) for run in store.runs(experiment(store), below)]
+def kept(store, **limits):
+    return [(run.number, run.run, run.seconds) for run in store.runs(entry(store), **limits)]
 
 
 def test_a_run_comes_back_to_the_last_bit(tmp_path):
     with Store(tmp_path / "new" / "folder" / "s.sqlite") as store:
-        store.add(experiment(store), origin(), [(7, RUN, 0.25)])
+        store.add(entry(store), origin(), [(7, RUN, 0.25)])
     with Store(tmp_path / "new" / "folder" / "s.sqlite") as store:
         assert kept(store) == kept(store, below=8) == [(7, RUN, 0.25)]
         assert kept(store, below=7) == []
-        assert store.finished(experiment(store)) == {7}
-        assert store.finished(experiment(store, seed=2)) == set()
+        assert store.finished(entry(store)) == {7}
+        assert store.finished(entry(store, seed=2)) == set()
 
 
-def test_a_run_is_kept_once():
+def test_a_run_is_stored_once():
     with Store(None) as store:
         for seconds in (1.0, 2.0):
-            store.add(experiment(store), origin(), [(0, RUN, seconds)])
+            store.add(entry(store), origin(), [(0, RUN, seconds)])
         assert kept(store) == [(0, RUN, 1.0)]
 
 
-def test_a_transaction_that_an_interruption_has_left_is_no_hindrance():
+def test_a_transaction_left_open_by_an_interruption_hinders_nothing():
     with Store(None) as store:
-        experiment(store)
+        entry(store)
         store._connection.execute("BEGIN IMMEDIATE")
-        store.add(experiment(store), origin(), [(0, RUN, 1.0)])
+        store.add(entry(store), origin(), [(0, RUN, 1.0)])
         assert kept(store) == [(0, RUN, 1.0)]
 
 
-def test_an_interruption_while_it_is_opened_leaves_no_lock(tmp_path, monkeypatch):
+def test_an_interruption_while_a_store_is_opened_leaves_no_lock(tmp_path, monkeypatch):
     def interrupted(connection, statements):
         raise KeyboardInterrupt
 
@@ -63,9 +62,9 @@ def test_an_interruption_while_it_is_opened_leaves_no_lock(tmp_path, monkeypatch
         assert kept(store) == []
 
 
-def test_every_batch_tells_where_it_comes_from(tmp_path):
+def test_every_batch_says_where_it_comes_from(tmp_path):
     with Store(tmp_path / "s.sqlite") as store:
-        store.add(experiment(store), origin(), [(0, RUN, 1.0)])
+        store.add(entry(store), origin(), [(0, RUN, 1.0)])
     connection = sqlite3.connect(tmp_path / "s.sqlite")
     connection.row_factory = sqlite3.Row
     (batch,) = map(dict, connection.execute("SELECT * FROM batches"))
@@ -75,12 +74,12 @@ def test_every_batch_tells_where_it_comes_from(tmp_path):
     assert (json.loads(row["content"]), row["algorithm"], row["maze"]) == ({"seed": 1}, "safe", "maze1")
 
 
-def test_two_processes_may_have_it_open(tmp_path):
+def test_two_processes_may_have_a_store_open(tmp_path):
     with Store(tmp_path / "s.sqlite") as one, Store(tmp_path / "s.sqlite") as other:
-        one.add(experiment(one), origin(), [(0, RUN, 1.0), (1, RUN, 1.0)])
-        other.add(experiment(other), origin(), [(1, RUN, 2.0), (2, RUN, 2.0)])
+        one.add(entry(one), origin(), [(0, RUN, 1.0), (1, RUN, 1.0)])
+        other.add(entry(other), origin(), [(1, RUN, 2.0), (2, RUN, 2.0)])
         assert kept(one) == kept(other) == [(0, RUN, 1.0), (1, RUN, 1.0), (2, RUN, 2.0)]
-        assert [run.batch for run in one.runs(experiment(one))] == [1, 1, 2]
+        assert [run.batch for run in one.runs(entry(one))] == [1, 1, 2]
 
 
 def test_files_that_are_no_store(tmp_path):
@@ -100,27 +99,28 @@ def test_files_that_are_no_store(tmp_path):
         ("text/below", "text"),
         ("", "unable to open|no file name"),
     ]:
-        with pytest.raises(ValueError, match=rf"store must be the path of a results store.*\(.*({reason})"):
+        with pytest.raises(StoreError, match=rf"store must be the path of a results store.*\(.*({reason})"):
             Store(tmp_path / name)
-    for nonsense in (7, "", "a\0b"):
-        with pytest.raises(ValueError, match="store must be the path"):
+    for nonsense in (7, "", "a\0b", "\ud800"):
+        with pytest.raises(StoreError, match="store must be the path"):
             Store(nonsense)
     assert (tmp_path / "foreign").read_bytes() == before
 
 
-# What a store may have gone through: a table is right, or there is one clear line
+def test_a_message_shows_the_whole_path_or_its_end(tmp_path):
+    for length in (90, 200):
+        folder = tmp_path / "x" * (length - len(str(tmp_path)))
+        with pytest.raises(StoreError, match=r"s\.sqlite' \(there is no such file\)$") as caught:
+            Store(folder / "s.sqlite", must_exist=True)
+        assert (f"got '{folder}" in str(caught.value)) == (length == 90)
+        assert len(str(caught.value)) < 300
 
 
-@pytest.fixture
-def store(tmp_path):
-    """The path of a store with an experiment of twelve runs."""
-    path = tmp_path / "s.sqlite"
-    run(EXPERIMENT, path, progress=False)
-    return path
+# Whatever happens to a store, a table is right, or one line says what is wrong
 
 
 def assert_refused(store, reason):
-    with pytest.raises(ValueError, match=rf"^store must .*; got .*{reason}") as caught:
+    with pytest.raises(StoreError, match=rf"^store must .*; got .*{reason}") as caught:
         run(EXPERIMENT, store, progress=False)
     assert "\n" not in str(caught.value)
 
@@ -144,7 +144,7 @@ def test_altered_by_hand(store, change):
         except sqlite3.IntegrityError:  # the file itself refuses
             return
         connection.commit()
-    if "run = 70" in change:  # not one of the twelve: that which is missing is made again
+    if "run = 70" in change:  # not one of the twelve: the missing run is made again
         assert len(run(EXPERIMENT, store, progress=False)) == 12
         assert_refused_by(lambda: run(replace(EXPERIMENT, runs=80), store, progress=False))
     else:
@@ -153,7 +153,7 @@ def test_altered_by_hand(store, change):
 
 
 def assert_refused_by(call):
-    with pytest.raises(ValueError, match=r"^store must be as it was left; got .* was altered or damaged"):
+    with pytest.raises(StoreError, match=r"^store must hold what was written to it; got .* was altered or damaged"):
         call()
 
 
@@ -177,13 +177,13 @@ def test_cut_off(store, share):
 def test_disk_full(tmp_path, monkeypatch):
     really = Store._set_up
 
-    def on_a_small_disk(connection):
-        really(connection)
-        connection.execute("PRAGMA max_page_count = 10")
+    def on_a_small_disk(store):
+        really(store)
+        store._connection.execute("PRAGMA max_page_count = 10")
 
     with monkeypatch.context() as patch:
-        patch.setattr(Store, "_set_up", staticmethod(on_a_small_disk))
-        with pytest.raises(ValueError, match=r"store must .*; got .*\(database or disk is full\)") as caught:
+        patch.setattr(Store, "_set_up", on_a_small_disk)
+        with pytest.raises(StoreError, match=r"store must .*; got .*\(database or disk is full\)") as caught:
             run(replace(EXPERIMENT, runs=200), tmp_path / "s.sqlite", progress=False)
     kept = int(caught.value.__notes__[0].split()[0])
     assert 0 < kept < 200
@@ -195,7 +195,7 @@ def test_disk_full(tmp_path, monkeypatch):
 def test_a_folder_that_cannot_be_written(tmp_path):
     tmp_path.chmod(0o555)
     user = os.geteuid()
-    if user == 0:  # who may write everywhere
+    if user == 0:  # root may write everywhere
         os.seteuid(65534)
     try:
         assert_refused(tmp_path / "s.sqlite", r"\((unable to open database file|.*[Pp]ermission denied).*\)")
@@ -204,15 +204,57 @@ def test_a_folder_that_cannot_be_written(tmp_path):
         tmp_path.chmod(0o755)
 
 
-def test_a_store_of_the_first_layout_gets_checksums(store):
-    before = run(EXPERIMENT, store, progress=False)
+def make_first_layout(store, change=""):
     with closing(sqlite3.connect(store)) as connection:
-        connection.executescript("""
+        connection.executescript(f"""
             CREATE TABLE old AS SELECT * FROM runs;
             ALTER TABLE old DROP COLUMN checksum;
             DROP TABLE runs;
             ALTER TABLE old RENAME TO runs;
+            {change};
             PRAGMA user_version = 1;
         """)
+
+
+def test_a_store_of_the_first_layout_gets_checksums(store):
+    before = run(EXPERIMENT, store, progress=False)
+    make_first_layout(store)
     pd.testing.assert_frame_equal(run(EXPERIMENT, store, progress=False), before)
     assert len(verify(store, sample=3, progress=False)) == 3
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        "UPDATE runs SET controller = 'x' WHERE run = 7",
+        "UPDATE runs SET coefficients = '7' WHERE run = 7",
+        "UPDATE runs SET distance = 'near' WHERE run = 7",
+    ],
+)
+def test_damage_that_has_got_a_checksum(store, change):
+    make_first_layout(store, change)
+    assert_refused(store, "where run 7 of safe on maze1 was altered or damaged")
+
+
+def test_a_store_of_the_first_layout_with_runs_of_no_experiment(store):
+    make_first_layout(store, "UPDATE runs SET experiment = 99")
+    assert_refused(store, r"\(some of its runs belong to no experiment\)")
+
+
+def test_what_layout_2_writes(tmp_path):
+    """As it was when layout 2 was new. If it changes, raise the layout, and update stores of this one."""
+    with Store(tmp_path / "s.sqlite") as store:
+        store.add(entry(store), origin(), [(7, RUN, 0.25)])
+    with closing(sqlite3.connect(tmp_path / "s.sqlite")) as connection:
+        tables, experiments, runs = (
+            connection.execute(query).fetchall()
+            for query in (
+                "SELECT sql FROM sqlite_master WHERE sql IS NOT NULL",
+                "SELECT content, digest FROM experiments",
+                "SELECT * FROM runs",
+            )
+        )
+    assert hashlib.sha256(repr(tables).encode()).hexdigest()[:16] == "1cab8cb0124d5c87"
+    assert experiments == [('{"seed": 1}', "a4bbadc1c78966d28872dbe60ff40cb9c996f884e228ed4a08eb7d6c3a24f4b8")]
+    controller, coefficients = "[0.1, -1e-300, 0.3333333333333333]", "[0.85, 0.99]"
+    assert runs == [(1, 7, 1, 1, 141, 2, controller, coefficients, 28_400, 0.25, "2a64fc6d5ba882c3")]

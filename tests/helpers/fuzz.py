@@ -55,6 +55,7 @@ class Target(NamedTuple):
     try_out: Callable[..., None]
     blamed: str  # what a message may begin with, as a regular expression
     share: int  # cases of this target in every hundred of all
+    refusal: type[ValueError] = ValueError
 
 
 def attempt(name: str, case: object) -> None:
@@ -65,7 +66,7 @@ def attempt(name: str, case: object) -> None:
     except ValueError as error:
         message = str(error)
         says_what = re.fullmatch(rf"({target.blamed}) must .+; got .*", message)
-        if type(error) is not ValueError or len(message) > LONGEST_MESSAGE or not says_what:
+        if type(error) is not target.refusal or len(message) > LONGEST_MESSAGE or not says_what:
             raise
         TRIED[name, "refused"] += 1
     else:
@@ -633,14 +634,15 @@ TARGETS = {
         FORMAT + "|maze|text|controller|seed|result|generation|distance|coefficients|evaluations",
         5,
     ),
-    "damaged stores": Target(damaged_stores(), try_damaged_store, "store", 3),
-    "edited stores": Target(edits(), try_edited_store, "store", 2),
+    "damaged stores": Target(damaged_stores(), try_damaged_store, "store", 3, safe.StoreError),
+    "edited stores": Target(edits(), try_edited_store, "store", 2, safe.StoreError),
     "store paths": Target(
         ANYTHING.filter(lambda value: not isinstance(value, str | Path) and value is not None)
         | st.sampled_from(["", ".", "text", "empty", "text/below", "new/folder/s", "a\0b", "\udcff", "x" * 300]),
         try_store_path,
         "store",
         1,
+        safe.StoreError,
     ),
 }
 

@@ -1,6 +1,6 @@
-"""What the tests of interruption run in processes of its own: an experiment that many kills do not outlast.
+"""What the tests of interruption run in other processes: an experiment that many kills do not outlast.
 
-Imported once by the server that these processes are forked from, so that each starts with everything compiled.
+The server that these processes are forked from imports it once, so that each starts with everything compiled.
 """
 
 import safe
@@ -12,5 +12,5 @@ compile_kernels()
 
 
 def work(store, runs):
-    """The first so many runs, into the store."""
+    """Run the experiment with so many runs, into the store."""
     safe.run(safe.Experiment("safe", "maze2", runs, seed=5, parameters=EXPERIMENT.parameters), store)
