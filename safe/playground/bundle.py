@@ -1,9 +1,10 @@
-"""The playground's JavaScript modules as one text, which runs where modules cannot import one another.
+"""The playground's JavaScript modules as one script.
 
-That is in pages opened as files, in widgets, and in workers made of a text. The modules of the folder `javascript`
-keep to a few forms, so that this takes no parser: a line begins with `import { a, b } from "./x.js";`, with `export`
-before a function, const or class, or with `export { a, b } from "./x.js";`; and no two modules declare the same name at
-the beginning of a line. One module is not in the folder: `packaged_mazes.js` is written here, from the package's mazes.
+Modules cannot import one another in a page opened as a file, in a widget, or in a worker made from a text. Those of the
+folder `javascript` keep to a few forms, so that no parser is needed to join them: a line begins with
+`import { a, b } from "./x.js";`, with `export` before a function, const or class, or with
+`export { a, b } from "./x.js";`; and no two modules declare the same name at the beginning of a line. One module is not
+in the folder: `packaged_mazes.js` is written here, from the package's mazes.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ _FROM = re.compile(r'^(import|export)\s*\{([^{}]*)\}\s*from\s*"\./([^"/]+)";[^\S
 _DECLARATION = re.compile(
     r"^(export\s+)?((?:async\s+)?function\b\s*\*?\s*|(?:const|let|class)\s+)([\w$]+)", re.MULTILINE
 )
-_COMMENT = re.compile(r"^[^\S\n]*(?://.*|/\*\*(?:(?!\*/).|\n)*\*/)\n", re.MULTILINE)  # on lines of its own
+_COMMENT = re.compile(r"^[^\S\n]*(?://.*|/\*\*(?:(?!\*/).|\n)*\*/)\n", re.MULTILINE)  # that fills its lines
 _OTHER_FORM = re.compile(r"^(?:import|export)\b.*|(?<![\w$.#])import\s*(?:\(|\.\s*meta\b).*", re.MULTILINE)
 
 # A worker is made from the text of the very function that makes it, so that it needs no address.
@@ -47,7 +48,7 @@ class _Module(NamedTuple):
     imports: list[tuple[str, set[str]]]  # from which module, which names
     exports: set[str]
     names: list[str]  # declared at the beginning of a line
-    body: str  # without imports, exports, and comments that have lines of their own
+    body: str  # without imports, exports, and comments that fill their lines
 
 
 def script(entries: tuple[str, ...] = ENTRIES, folder: Path = FOLDER) -> str:

@@ -17,7 +17,7 @@ export class NoveltyArchive {
     this.capacity = checkedInteger("capacity", capacity, 0, MOST);
     this.k = checkedInteger("k", k, 1, MOST);
     this.metric = checkedChoice("metric", metric, ["taxicab", "euclidean"]);
-    this.archive = null; // made with the first points, which tell the dimensions
+    this.archive = null; // made with the first points, which give the dimensions
   }
 
   /** The novelty of one generation of points, in order; what the archive admits of it stays there. */

@@ -1,5 +1,5 @@
 // Calls of the engine in JSON, answered in JSON: the same in Node, in a page and in a worker of it.
-// A double comes back as it was, since both sides write the shortest digits that tell it from all others.
+// A double comes back as it was, since both sides write the shortest digits that distinguish it from all others.
 
 import { shown } from "../../../safe/playground/javascript/checks.js";
 import {
