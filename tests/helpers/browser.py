@@ -16,6 +16,8 @@ BROWSERS = (
 )
 BROWSER = next((found for name in BROWSERS if (found := shutil.which(name))), None)
 
+DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 800}
+
 needs_browser = pytest.mark.skipif(BROWSER is None, reason="no Chromium found: install Debian's chromium, or Chrome")
 
 

@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 import papermill
 import pytest
 
-from tests.notebooks.test_notebooks import NOTEBOOKS
+from tests.notebooks import NOTEBOOKS
 
 mpl.use("agg")
 

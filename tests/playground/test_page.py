@@ -2,8 +2,8 @@
 
 import safe
 from tests.helpers.browser import needs_browser
+from tests.helpers.runs import runs_of_every_kind
 from tests.helpers.twin import IN_PAGE, in_browser, run_of, told
-from tests.playground.test_twin import runs_of_every_kind
 
 
 @needs_browser

@@ -1,6 +1,5 @@
 """The engine of the playground gives what the package gives, bit for bit. Skipped without Node, without Chromium."""
 
-import functools
 import json
 from pathlib import Path
 
@@ -10,19 +9,18 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import safe
-from safe import Algorithm, Experiment, Maze, NoveltyArchive, Parameters, checks, load_maze
+from safe import Algorithm, Maze, NoveltyArchive, Parameters, checks, load_maze
 from safe.maze import ways_to_goal
 from safe.maze_files import MAZE_FOLDER, parse_maze
 from safe.novelty import METRICS
-from tests.conftest import controllers, mazes
 from tests.helpers import fuzz, golden, record
+from tests.helpers.maze_texts import BAD_DRAWINGS, BAD_LISTS
+from tests.helpers.reference import reference_endpoints
+from tests.helpers.runs import runs_of_every_kind
+from tests.helpers.strategies import controllers, generations_of_points, mazes
 from tests.helpers.twin import TWINS, in_node, needs_node, run_of, told
-from tests.test_maze import BAD_DRAWINGS, BAD_LISTS
-from tests.test_novelty import generations_of_points
-from tests.test_robot import reference_endpoints
 
 DATA = Path(__file__).parents[1] / "data"
-RUNS = 200
 
 
 @pytest.fixture(scope="module", params=TWINS)
@@ -164,84 +162,6 @@ def test_scores_and_archives_of_any_points(twin, generations, capacity, k, metri
 
 
 # Runs
-
-
-def drawn_maze(rng):
-    """A maze with walls at random."""
-    while True:
-        height, width = rng.integers(2, 40, 2)
-        cells = [tuple(map(int, rng.integers((height, width)))) for _ in range(2)]
-        try:
-            return Maze(rng.random((height, width)) < 0.3, *cells)
-        except ValueError:  # an end in a wall, no way between them
-            continue
-
-
-def drawn_algorithm(rng):
-    """One by its name, or any that one might write."""
-    given = rng.uniform(-0.2, 1, (2 * int(rng.integers(2, 9)), 2)).tolist()
-    return [
-        *safe.ALGORITHMS,
-        Algorithm("a quarter", [(0.25, 0.75)]),
-        Algorithm("several", given[: rng.integers(1, len(given))]),
-        Algorithm("drawn", None),
-        Algorithm("given", given, "genotypic novelty"),
-    ][rng.integers(9)]
-
-
-def drawn_parameters(rng):
-    return Parameters(
-        population=2 * int(rng.integers(2, 25)),
-        objectives=2 * int(rng.integers(2, 25)),
-        generations=int(rng.integers(1, 40)),
-        tournament=int(rng.integers(1, 8)),
-        elites=int(rng.choice([0, 2, 2])),
-        crossover=rng.choice([0.0, 0.8, 1.0]),
-        mutation=rng.choice([0.0, 0.4, 1.0]),
-        k=int(rng.choice([1, 4, 15, 200, 1_000_000])),
-        archive=int(rng.choice([0, 1, 30, 200, 1000])),
-        steps=int(rng.choice([1, 50, 300, 1001])),
-        success_distance=int(rng.choice([0, 0, 2, 5])),
-    )
-
-
-def drawn_seed(rng):
-    """A seed in one of its forms."""
-    words = [int(word) for word in rng.integers(2**63, size=5)]
-    return [
-        words[0] % 1000,
-        words[0],
-        (words[0] << 200) + words[1],
-        words,
-        np.random.SeedSequence(words[0], spawn_key=words[3:4]).spawn(2)[1],
-        Experiment("safe", "maze1", seed=words[0]).seed_sequence(17),
-    ][rng.integers(6)]
-
-
-@functools.cache
-def runs_of_every_kind():
-    """The arguments of 200 runs."""
-    rng = np.random.default_rng(2019)
-    papers = [load_maze("maze1"), load_maze("maze2")]
-    runs = [
-        (
-            drawn_maze(rng) if rng.random() < 0.5 else papers[rng.integers(2)],
-            drawn_algorithm(rng),
-            drawn_seed(rng),
-            drawn_parameters(rng),
-        )
-        for _ in range(RUNS - 5)
-    ]
-    large, far_apart = np.zeros((300, 260), dtype=bool), Parameters(40, 40, generations=8, steps=5000, archive=50)
-    smallest = Parameters(2, 2, elites=0, generations=30)
-    return [
-        *runs,
-        (Maze(large, (150, 130), (0, 0)), "novelty", 0, far_apart),
-        (Maze(large, (150, 130), (0, 0)), "safe", 2**64, far_apart),
-        (papers[0], "safe", 0, smallest),
-        (papers[1], "novelty", [0, 0], smallest),
-        (Maze.from_drawing("SG"), "fixed", [2**40], Parameters(generations=3)),
-    ]
 
 
 def test_runs_of_every_kind(twin):
