@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from tests.book.conftest import RUNS, build, execute, output_of
+from tests.helpers.checkout import RUNS, build, execute, output_of
 
 
 @pytest.fixture
@@ -139,6 +139,7 @@ def test_without_an_address_of_the_repository_no_page_links_to_one(pages):
         assert not re.search("mybinder|colab|/edit/", page), name
 
 
+@pytest.mark.usefixtures("alone_in_checkout")
 def test_with_an_address_there_are_buttons(checkout, tmp_path):
     folder = tmp_path / "with address"
     shutil.copytree(checkout, folder, ignore=shutil.ignore_patterns("_build"))
@@ -197,11 +198,13 @@ def test_the_download_is_the_clean_notebook(checkout):
         assert (checkout / "_build/html/_sources/notebooks" / notebook.name).read_bytes() == notebook.read_bytes()
 
 
+@pytest.mark.usefixtures("alone_in_checkout")
 def test_what_is_up_to_date_is_not_executed_again(checkout):
     again = execute(checkout)
     assert again.stdout.count("up to date") == len(list((checkout / "notebooks").glob("*.ipynb")))
 
 
+@pytest.mark.usefixtures("alone_in_checkout")
 @pytest.mark.parametrize("change", ["notebook", "package", "measurements", "runs", "missing"])
 def test_stale_copies_are_refused(checkout, change):
     notebook = checkout / "notebooks" / "table2-success.ipynb"
@@ -251,6 +254,7 @@ def test_the_runner_refuses_what_it_does_not_know(checkout, arguments, runs, com
     assert re.search(complaint, re.sub(r"\s+", " ", refused.stderr))
 
 
+@pytest.mark.usefixtures("alone_in_checkout")
 def test_a_failed_execution_leaves_the_copy_as_it_was(checkout):
     copy = checkout / "executed" / "figure1-mazes.ipynb"
     before = copy.read_bytes()

@@ -10,8 +10,8 @@ from urllib.parse import urljoin
 
 import pytest
 
-from tests.book.conftest import RUNS, build, output_of
-from tests.playground.test_address import run_at, values_of
+from tests.helpers.addresses import run_at, values_of
+from tests.helpers.checkout import RUNS, build, output_of
 
 TELL_OF_RUNS = {
     "tab-coefficients",
@@ -163,6 +163,7 @@ def test_what_is_downloaded_has_no_links(checkout, linked):
             assert [title for title in row if title not in ("replay", "playground")] == [*dict.fromkeys(header)], name
 
 
+@pytest.mark.usefixtures("alone_in_checkout")
 def test_in_print_there_are_no_links_to_the_playground(checkout):
     built = build(checkout, "--builder", "latex")
     assert built.returncode == 0, output_of(built)

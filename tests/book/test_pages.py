@@ -6,8 +6,7 @@ from urllib.parse import unquote, urljoin, urlparse
 
 import pytest
 
-from tests.book.conftest import DESKTOP, PHONE
-from tests.helpers.browser import complaints_of, needs_browser
+from tests.helpers.browser import DESKTOP, PHONE, complaints_of, needs_browser
 
 
 @pytest.fixture(scope="module")

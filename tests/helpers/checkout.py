@@ -12,7 +12,8 @@ PARTS = ["_config.yml", "benchmarks", "book", "notebooks", "safe"]
 
 
 def make(folder):
-    """Copy the checkout, execute all its notebooks and build the book."""
+    """Copy the checkout into a new folder, execute all its notebooks and build the book."""
+    folder.mkdir()
     for part in PARTS:
         if (ROOT / part).is_dir():
             # with __pycache__, for the compiled kernels: copies keep the times by which numba recognises them
