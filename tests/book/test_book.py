@@ -92,7 +92,7 @@ def test_every_table_that_was_computed_is_shown_with_number_and_caption_and_can_
             table = shown[settings["name"]]
             number, caption = re.fullmatch(r"Table ([0-9.]+) (.*)", table["caption"]).groups()
             assert caption.replace("’", "'") == settings["caption"], number
-            columns = len(expected[0])  # links may stand in one more (see test_links.py)
+            columns = len(expected[0])  # one more may hold links (see test_links.py)
             assert [[cell.strip() for cell in row[:columns]] for row in table["rows"]] == expected, settings["name"]
             (link,) = re.findall(rf'href="../(_downloads/[^"]*/{settings["name"]}.csv)"', page)
             assert list(csv.reader((html / link).read_text().splitlines())) == expected
@@ -123,7 +123,7 @@ def test_no_number_of_the_prose_is_missing(pages):
         assert "{{" not in re.sub(r"<(script|pre).*?</\1>", "", page, flags=re.DOTALL), name
 
 
-def test_every_page_tells_what_it_is(pages):
+def test_every_page_has_a_title_and_a_description(pages):
     titles = set()
     for name, page in pages.items():
         title = re.search(r"<title>\s*(.*?)\s*</title>", page, re.DOTALL).group(1)
@@ -156,7 +156,7 @@ def test_with_an_address_there_are_buttons(checkout, tmp_path):
 
 
 class Loads(HTMLParser):
-    """The addresses that a page loads something from."""
+    """The addresses from which a page loads something."""
 
     def __init__(self, page):
         super().__init__()

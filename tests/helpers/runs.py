@@ -17,12 +17,12 @@ def drawn_maze(rng):
         cells = [tuple(map(int, rng.integers((height, width)))) for _ in range(2)]
         try:
             return Maze(rng.random((height, width)) < 0.3, *cells)
-        except ValueError:  # an end in a wall, no way between them
+        except ValueError:  # the start or the goal is in a wall, or cannot be reached
             continue
 
 
 def drawn_algorithm(rng):
-    """One by its name, or any that one might write."""
+    """An algorithm by its name, or one as a user might write it."""
     given = rng.uniform(-0.2, 1, (2 * int(rng.integers(2, 9)), 2)).tolist()
     return [
         *safe.ALGORITHMS,

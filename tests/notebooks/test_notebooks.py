@@ -1,4 +1,4 @@
-"""What holds for every notebook. That they execute is tested with the book."""
+"""Rules for every notebook. The tests of the book execute them."""
 
 import json
 
