@@ -6,11 +6,12 @@ export RUNS
 CASES ?= 100000
 
 BIN := .venv/bin
-INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
+INSTALL := $(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check --constraint constraints.txt
 DENO := DENO_NO_UPDATE_CHECK=1 $(BIN)/deno
 BUILD := $(BIN)/jupyter-book build . --toc book/_toc.yml --quiet --warningiserror --keep-going --nitpick
 BOUNDS_CHECKED := NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.numba-boundscheck
-KERNEL_TESTS := tests/test_robot.py tests/test_neighbours.py tests/test_novelty.py tests/test_operators.py tests/test_evolution.py
+TEST := $(BIN)/pytest --numprocesses logical --dist loadfile --no-loadscope-reorder
+KERNEL_TESTS := tests/test_evolution.py tests/test_neighbours.py tests/test_novelty.py tests/test_operators.py tests/test_robot.py
 
 .PHONY: help env execute book pdf test bench fuzz format picture constraints clean
 
@@ -36,8 +37,8 @@ test: .venv/installed-for-tests ## everything from nothing: environment, the tes
 	$(BIN)/ruff check .
 	$(DENO) fmt --check
 	$(DENO) lint
-	$(BIN)/pytest
-	$(BOUNDS_CHECKED) $(BIN)/pytest $(KERNEL_TESTS)
+	$(TEST)
+	$(BOUNDS_CHECKED) $(TEST) $(KERNEL_TESTS)
 
 fuzz: .venv/installed-for-fuzzing ## CASES malformed inputs (100000), with bounds checking
 	$(BOUNDS_CHECKED) $(BIN)/python -m tests.helpers.fuzz $(CASES)
@@ -67,15 +68,20 @@ clean: ## remove what can be made again, but for the environment and the results
 	rm -rf _build executed .numba-boundscheck .pytest_cache .hypothesis .ruff_cache
 	find safe tests book benchmarks -name __pycache__ -exec rm -rf {} +
 
-.venv/installed: pyproject.toml requirements.txt constraints.txt
+# The newest pip, since that of Python takes minutes to choose what constraints.txt has chosen.
+.venv/created:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; this is " + sys.version.split()[0] + ". Name another: make PYTHON=...")'
 	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --upgrade pip
+	touch $@
+
+.venv/installed: .venv/created pyproject.toml requirements.txt constraints.txt
 	$(INSTALL) --requirement requirements.txt
 	touch $@
 
-.venv/installed-for-tests: .venv/installed
-	$(INSTALL) --editable .[test,bench]
-	touch $@
+.venv/installed-for-tests: .venv/created pyproject.toml requirements.txt constraints.txt
+	$(INSTALL) --editable .[book,test,bench]
+	touch .venv/installed $@
 
 .venv/installed-for-fuzzing: .venv/installed-for-tests
 	$(INSTALL) --editable .[fuzz]

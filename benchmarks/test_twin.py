@@ -11,14 +11,14 @@ import pytest
 import safe
 from benchmarks.workloads import SEED
 from safe import Parameters
-from tests.helpers.twin import TWINS, run_of, told
+from tests.helpers.twin import TWINS, as_in_engine, run_of
 
 
 @pytest.fixture(scope="module", params=[None, *TWINS], ids=lambda twin: "safe" if twin is None else None)
 def evolve(request):
     """The arguments of a run, and its outcome."""
     if request.param is None:
-        yield lambda *run: told(safe.evolve(*run)), "safe"
+        yield lambda *run: as_in_engine(safe.evolve(*run)), "safe"
         return
     with request.param() as twin:
         (host,) = twin.results([{"function": "host"}])
@@ -31,4 +31,4 @@ def test_run(measure, sized, evolve, algorithm):
     make_run, method = evolve
     run = safe.load_maze("maze1"), algorithm, SEED, Parameters(generations=sized(600, check=3), success_distance=0)
     found = measure("twin", make_run, lambda: run, method=method, algorithm=algorithm, generations=run[-1].generations)
-    assert found == told(safe.evolve(*run))
+    assert found == as_in_engine(safe.evolve(*run))

@@ -1,34 +1,27 @@
-"""What the tests share: made-up mazes and controllers."""
+"""How Hypothesis tries examples, and the order of the tests."""
 
-import hypothesis.extra.numpy as hnp
-import numpy as np
+from pathlib import Path
+
 from hypothesis import HealthCheck, settings
-from hypothesis import strategies as st
 
-from safe import Maze
-
-collect_ignore = ["helpers/fuzz_atheris.py"]  # a program of its own, for which alone atheris is installed
+collect_ignore = ["helpers/fuzz_atheris.py"]  # a program for atheris, which few have installed
 
 # the first call compiles, so no example has a deadline
 settings.register_profile("default", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("default")
 
-
-@st.composite
-def mazes(draw, longest=12):
-    """Mazes of up to `longest` cells a side, the walls at random, with at least one way to the goal."""
-    height, width = draw(st.integers(2, longest)), draw(st.integers(2, longest))
-    walls = draw(hnp.arrays(bool, (height, width), elements=st.sampled_from([False, False, True])))
-    start = draw(st.tuples(st.integers(0, height - 1), st.integers(0, width - 1)))
-    goal = draw(st.tuples(st.integers(0, height - 1), st.integers(0, width - 1)).filter(lambda cell: cell != start))
-    # a corridor: along the row of the start, then along the column of the goal
-    walls[start[0], min(start[1], goal[1]) : max(start[1], goal[1]) + 1] = False
-    walls[min(start[0], goal[0]) : max(start[0], goal[0]) + 1, goal[1]] = False
-    return Maze(walls, start, goal)
+HERE = Path(__file__).parent
+FIRST = (
+    "book/test_book.py",  # makes the checkout, for which the rest of the book waits
+    "notebooks/test_parameters.py",
+    "test_benchmarks.py",
+    "playground/test_widget_in_jupyterlab.py",
+)
+LAST = ("book/test_playground.py", "book/test_pages.py", "book/test_links.py", "book/test_bundled.py")
 
 
-def controllers(count=None):
-    """One controller, or an array of `count` of them."""
-    shape = 16 if count is None else (count, 16)
-    # few distinct values, so that sums are often exactly zero
-    return hnp.arrays(np.float64, shape, elements=st.sampled_from([-1.0, -0.5, 0.0, 0.25, 1.0]) | st.floats(-1, 1))
+def pytest_collection_modifyitems(items):
+    """Long files first, so that processes side by side end together; what needs the book last, when it is built."""
+    place = {HERE / name: i - len(FIRST) for i, name in enumerate(FIRST)}
+    place |= {HERE / name: i for i, name in enumerate(LAST, start=1)}
+    items.sort(key=lambda item: place.get(item.path, 0))

@@ -1,4 +1,4 @@
-"""That the benchmarks do not rot: each is called once, at a small size, and nothing is timed."""
+"""Every benchmark works: each is called once, at a small size, without being timed."""
 
 import os
 import subprocess

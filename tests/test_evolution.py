@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 import safe
 from safe import Algorithm, Parameters, evolve, generations
 from safe.evolution import RULES
-from tests.conftest import mazes
 from tests.helpers import oracle
 from tests.helpers.golden import FILE, golden_runs, outcome
+from tests.helpers.strategies import mazes
 
 SMALL = Parameters(population=20, objectives=10, generations=12, archive=60, k=4, steps=40)
 EVOLVING = [name for name in safe.ALGORITHMS if name != "random"]

@@ -1,4 +1,4 @@
-"""What holds for every compiled function, and that an edited one is never run as it was before."""
+"""Rules for every compiled function; and an edited function never runs in its old form."""
 
 import dis
 import importlib
@@ -70,7 +70,7 @@ def test_without_compiling_a_run_is_the_same():
     assert outputs[0] == outputs[1] != ""
 
 
-def test_an_edited_kernel_is_compiled_anew_in_every_file_that_calls_it(tmp_path):
+def test_an_edited_kernel_is_compiled_again_in_every_file_that_calls_it(tmp_path):
     package = tmp_path / "tiny"
     package.mkdir()
     source = Path(safe.__file__).with_name("kernel.py").read_text()

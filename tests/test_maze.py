@@ -6,8 +6,8 @@ from hypothesis import given
 
 from safe import Maze, load_maze
 from safe.maze import SENSORS, ways_to_goal
-from tests.conftest import mazes
 from tests.helpers import oracle
+from tests.helpers.strategies import mazes
 
 
 def test_a_maze_is_its_cells_and_not_its_name():

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from safe import NoveltyArchive
 from safe.novelty import RINGS, archived, empty_archive, empty_occupancy, score_cells
 from tests.helpers import oracle
+from tests.helpers.strategies import generations_of_points
 
 DATA = Path(__file__).parent / "data"
 DISTANCES = {"taxicab": oracle.taxicab, "euclidean": oracle.euclidean}
@@ -54,21 +55,6 @@ def test_counting_cells_gives_the_scores_and_the_archive_of_measuring_points(gen
         expected = np.zeros_like(occupancy)
         np.add.at(expected, tuple(archived(cells)[0].astype(int).T + RINGS), 1)
         assert (occupancy == expected).all()
-
-
-def generations_of_points():
-    """A few generations of points in one to three dimensions; from a small grid, so that there are many ties."""
-    return st.integers(1, 3).flatmap(
-        lambda dimensions: st.lists(
-            hnp.arrays(
-                np.float64,
-                st.tuples(st.integers(0, 9), st.just(dimensions)),
-                elements=st.integers(0, 6).map(float) | st.floats(0, 6, allow_subnormal=False),
-            ),
-            min_size=1,
-            max_size=5,
-        )
-    )
 
 
 @given(generations_of_points(), st.integers(0, 12), st.integers(1, 20), st.sampled_from(sorted(DISTANCES)))

@@ -1,6 +1,3 @@
-import csv
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -8,18 +5,11 @@ from hypothesis import strategies as st
 
 import safe
 from safe import Maze
-from tests.conftest import controllers, mazes
 from tests.helpers import oracle
+from tests.helpers.reference import reference_endpoints
+from tests.helpers.strategies import controllers, mazes
 
-DATA = Path(__file__).parent / "data"
 RIGHT_DOWN, RIGHT_UP = [0.0] * 16, [0.0] * 8 + [-1.0] * 8
-
-
-def reference_endpoints():
-    with open(DATA / "endpoints.csv") as file:
-        for row in csv.DictReader(file):
-            controller = [float(row[f"p{i}"]) for i in range(1, 17)]
-            yield row["maze"], int(row["steps"]), controller, (int(row["row"]), int(row["column"]))
 
 
 def test_every_reference_end_point():

@@ -58,6 +58,8 @@ def script(entries: tuple[str, ...] = ENTRIES, folder: Path = FOLDER) -> str:
 
     Raises
     ------
+    ImportError
+        If there is no such folder.
     ValueError
         If a module is missing, is written in another form, imports what is not exported, or imports itself by way of
         others, or if two declare the same name.
@@ -90,6 +92,10 @@ def stylesheet(folder: Path = FOLDER) -> str:
 
 def _read_modules(folder: Path, entries: tuple[str, ...]) -> dict[str, _Module]:
     """The entries and all that they import, by file."""
+    if not folder.is_dir():
+        raise ImportError(
+            f"safe.Playground needs the package's JavaScript; there is no folder {folder}: install the package again"
+        )
     modules = {}
     wanted = [(entry, "the playground") for entry in entries]
     while wanted:

@@ -1,54 +1,42 @@
-"""What the tests of the book share: a copy of the checkout, with every notebook executed and the book built."""
+"""What the tests of the book share: a checkout with every notebook executed, and the book built from it."""
 
-import os
-import shutil
-import subprocess
-import sys
-from pathlib import Path
+import fcntl
+from contextlib import contextmanager
 
 import pytest
 
+from safe.evolution import compile_kernels
 from tests.helpers.browser import chromium, serving
-
-ROOT = Path(__file__).parents[2]
-RUNS = "4"
-PARTS = ["_config.yml", "benchmarks", "book", "notebooks", "safe"]
-DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 800}
-
-
-def call(folder, *command, runs=RUNS):
-    environment = {**os.environ, "RUNS": runs, "NO_COLOR": "1"}
-    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
-
-
-def execute(folder, *arguments, **options):
-    return call(folder, sys.executable, "book/execute.py", *arguments, **options)
-
-
-def build(folder, *arguments, **options):
-    command = Path(sys.executable).with_name("jupyter-book")
-    settings = "--toc", "book/_toc.yml", "-W", "--keep-going", "-n"
-    return call(folder, command, "build", ".", *settings, *arguments, **options)
-
-
-def output_of(process):
-    return process.stdout + process.stderr
+from tests.helpers.checkout import make
 
 
 @pytest.fixture(scope="session")
-def checkout(tmp_path_factory):
-    """A checkout with all notebooks executed and the book built."""
-    folder = tmp_path_factory.mktemp("checkout")
-    for part in PARTS:
-        if (ROOT / part).is_dir():
-            shutil.copytree(ROOT / part, folder / part, ignore=shutil.ignore_patterns("__pycache__"))
-        else:
-            shutil.copy(ROOT / part, folder)
-    executed = execute(folder)
-    assert executed.returncode == 0, output_of(executed)
-    built = build(folder)
-    assert built.returncode == 0, output_of(built)
+def checkout(tmp_path_factory, worker_id):
+    """A checkout with all notebooks executed and the book built: one for all the processes that run tests."""
+    temporary = tmp_path_factory.getbasetemp()
+    folder = (temporary if worker_id == "master" else temporary.parent) / "checkout"
+    made = folder.with_suffix(".made")
+    with locked(folder.with_suffix(".lock")):
+        if not made.exists():
+            compile_kernels()  # before they are copied
+            make(folder)
+            made.touch()
     return folder
+
+
+@contextmanager
+def locked(path):
+    """Only one process at a time is in this context."""
+    with path.open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
+@pytest.fixture
+def alone_in_checkout(checkout):
+    """For a test that changes the checkout, or would notice that another does: they run one after the other."""
+    with locked(checkout.with_suffix(".lock")):
+        yield
 
 
 @pytest.fixture(scope="session")
@@ -63,7 +51,7 @@ def site(html):
         yield address
 
 
-@pytest.fixture(scope="package")  # as long as it is open, no other can be, nor anything run by asyncio
+@pytest.fixture(scope="package")  # while it is open, nothing else may use Playwright or asyncio
 def browser():
     with chromium() as browser:
         yield browser

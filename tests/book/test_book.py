@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from tests.book.conftest import RUNS, build, execute, output_of
+from tests.helpers.checkout import RUNS, build, execute, output_of
 
 
 @pytest.fixture
@@ -92,7 +92,7 @@ def test_every_table_that_was_computed_is_shown_with_number_and_caption_and_can_
             table = shown[settings["name"]]
             number, caption = re.fullmatch(r"Table ([0-9.]+) (.*)", table["caption"]).groups()
             assert caption.replace("’", "'") == settings["caption"], number
-            columns = len(expected[0])  # links may stand in one more (see test_links.py)
+            columns = len(expected[0])  # one more may hold links (see test_links.py)
             assert [[cell.strip() for cell in row[:columns]] for row in table["rows"]] == expected, settings["name"]
             (link,) = re.findall(rf'href="../(_downloads/[^"]*/{settings["name"]}.csv)"', page)
             assert list(csv.reader((html / link).read_text().splitlines())) == expected
@@ -123,7 +123,7 @@ def test_no_number_of_the_prose_is_missing(pages):
         assert "{{" not in re.sub(r"<(script|pre).*?</\1>", "", page, flags=re.DOTALL), name
 
 
-def test_every_page_tells_what_it_is(pages):
+def test_every_page_has_a_title_and_a_description(pages):
     titles = set()
     for name, page in pages.items():
         title = re.search(r"<title>\s*(.*?)\s*</title>", page, re.DOTALL).group(1)
@@ -139,6 +139,7 @@ def test_without_an_address_of_the_repository_no_page_links_to_one(pages):
         assert not re.search("mybinder|colab|/edit/", page), name
 
 
+@pytest.mark.usefixtures("alone_in_checkout")
 def test_with_an_address_there_are_buttons(checkout, tmp_path):
     folder = tmp_path / "with address"
     shutil.copytree(checkout, folder, ignore=shutil.ignore_patterns("_build"))
@@ -155,7 +156,7 @@ def test_with_an_address_there_are_buttons(checkout, tmp_path):
 
 
 class Loads(HTMLParser):
-    """The addresses that a page loads something from."""
+    """The addresses from which a page loads something."""
 
     def __init__(self, page):
         super().__init__()
@@ -197,11 +198,13 @@ def test_the_download_is_the_clean_notebook(checkout):
         assert (checkout / "_build/html/_sources/notebooks" / notebook.name).read_bytes() == notebook.read_bytes()
 
 
+@pytest.mark.usefixtures("alone_in_checkout")
 def test_what_is_up_to_date_is_not_executed_again(checkout):
     again = execute(checkout)
     assert again.stdout.count("up to date") == len(list((checkout / "notebooks").glob("*.ipynb")))
 
 
+@pytest.mark.usefixtures("alone_in_checkout")
 @pytest.mark.parametrize("change", ["notebook", "package", "measurements", "runs", "missing"])
 def test_stale_copies_are_refused(checkout, change):
     notebook = checkout / "notebooks" / "table2-success.ipynb"
@@ -251,6 +254,7 @@ def test_the_runner_refuses_what_it_does_not_know(checkout, arguments, runs, com
     assert re.search(complaint, re.sub(r"\s+", " ", refused.stderr))
 
 
+@pytest.mark.usefixtures("alone_in_checkout")
 def test_a_failed_execution_leaves_the_copy_as_it_was(checkout):
     copy = checkout / "executed" / "figure1-mazes.ipynb"
     before = copy.read_bytes()

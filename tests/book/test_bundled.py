@@ -2,9 +2,11 @@
 
 import json
 
+import pytest
+
 from safe.playground import bundle
-from tests.book.conftest import execute, output_of
 from tests.helpers.browser import complaints_of, needs_browser
+from tests.helpers.checkout import execute, output_of
 
 
 def test_only_its_page_loads_it(html):
@@ -37,6 +39,7 @@ def test_a_picture_stands_for_the_widget(checkout):
     assert "jupyter.widget" not in page
 
 
+@pytest.mark.usefixtures("alone_in_checkout")
 def test_another_script_makes_no_notebook_stale(checkout):
     module = checkout / "safe" / "playground" / "javascript" / "engine.js"
     before = module.read_bytes()

@@ -1,4 +1,4 @@
-"""The examples on the pages give what they say."""
+"""Examples on the pages give the results that they show."""
 
 import doctest
 import re

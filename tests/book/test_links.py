@@ -1,4 +1,4 @@
-"""Rows that tell of runs lead to them: their links in the built book, and the runs that these say."""
+"""Links in the built book, from rows of tables to the runs and robots that they are about."""
 
 import csv
 import html
@@ -10,10 +10,10 @@ from urllib.parse import urljoin
 
 import pytest
 
-from tests.book.conftest import RUNS, build, output_of
-from tests.playground.test_address import run_at, values_of
+from tests.helpers.addresses import run_at, values_of
+from tests.helpers.checkout import RUNS, build, output_of
 
-TELL_OF_RUNS = {
+ABOUT_RUNS = {
     "tab-coefficients",
     "tab-deception",
     "tab-evolved",
@@ -33,8 +33,8 @@ TELL_OF_RUNS = {
     "tab-unevolved",
     "tab-unevolved-coefficients",
 }
-TELL_OF_ROBOTS = {"tab-mazes", "tab-mean-controller"}
-TELL_OF_NEITHER = {
+ABOUT_ROBOTS = {"tab-mazes", "tab-mean-controller"}
+ABOUT_NEITHER = {
     "tab-budget",
     "tab-cost",
     "tab-first-use",
@@ -80,12 +80,12 @@ def addresses_of(links):
     return [link.split("#", 1)[1] for _, link in links]
 
 
-def test_it_is_known_of_every_table_whether_it_tells_of_runs(linked):
-    assert set(linked) == TELL_OF_RUNS | TELL_OF_ROBOTS | TELL_OF_NEITHER
+def test_every_table_is_about_runs_or_robots_or_neither(linked):
+    assert set(linked) == ABOUT_RUNS | ABOUT_ROBOTS | ABOUT_NEITHER
 
 
-@pytest.mark.parametrize("name", sorted(TELL_OF_RUNS | TELL_OF_ROBOTS))
-def test_every_row_that_tells_of_runs_or_robots_leads_to_them(checkout, linked, name):
+@pytest.mark.parametrize("name", sorted(ABOUT_RUNS | ABOUT_ROBOTS))
+def test_every_row_about_runs_or_robots_leads_to_them(checkout, linked, name):
     assert linked[name] or name == "tab-ledger-second-look"  # in a few runs nothing stands out
     for row, links in linked[name]:
         says_none = row.get("successful runs") == "–" or row.get("rates") == "in the paper"
@@ -102,8 +102,8 @@ def test_every_row_that_tells_of_runs_or_robots_leads_to_them(checkout, linked, 
                     assert values[key].split(":")[0] == row[key], link
 
 
-def test_rows_of_others_have_no_links(linked):
-    for name in TELL_OF_NEITHER:
+def test_other_rows_have_no_links(linked):
+    for name in ABOUT_NEITHER:
         assert [links for _, links in linked[name] if links] == [], name
 
 
@@ -115,14 +115,14 @@ def test_a_row_of_two_algorithms_leads_to_both(linked):
         assert algorithms == ["safe", "unevolved:none:drawn"]
     for row, links in linked["tab-ledger-comparisons"]:
         of_experiments = row["experiments"].split("; ")
-        told = [values_of(address) for address in addresses_of(links)]
+        linked_to = [values_of(address) for address in addresses_of(links)]
         assert [experiment.split(":")[0] for experiment in of_experiments] == [
-            f"{values['algorithm']} on {values['maze']}" for values in told
+            f"{values['algorithm']} on {values['maze']}" for values in linked_to
         ]
 
 
-def test_the_run_that_a_link_says_is_the_one_in_the_results(checkout, linked):
-    rows = [row for name in sorted(TELL_OF_RUNS) for row in linked[name]]
+def test_a_link_leads_to_the_run_in_the_results(checkout, linked):
+    rows = [row for name in sorted(ABOUT_RUNS) for row in linked[name]]
     every = sorted(
         {address for _, links in rows for address in addresses_of(links) if address.startswith("view=watch")}
     )
@@ -155,7 +155,7 @@ def test_a_row_leads_to_the_first_run_that_succeeded_or_else_to_run_0(checkout, 
         assert text == f"run {first or 0}"
 
 
-def test_what_is_downloaded_has_no_links(checkout, linked):
+def test_downloaded_tables_have_no_links(checkout, linked):
     for name, rows in linked.items():
         header = next(csv.reader((checkout / "executed" / "tables" / f"{name}.csv").read_text().splitlines()))
         assert not {"replay", "playground"} & set(header)
@@ -163,6 +163,7 @@ def test_what_is_downloaded_has_no_links(checkout, linked):
             assert [title for title in row if title not in ("replay", "playground")] == [*dict.fromkeys(header)], name
 
 
+@pytest.mark.usefixtures("alone_in_checkout")
 def test_in_print_there_are_no_links_to_the_playground(checkout):
     built = build(checkout, "--builder", "latex")
     assert built.returncode == 0, output_of(built)

@@ -1,4 +1,4 @@
-"""Every page as a browser shows it. Skipped where there is no Chromium."""
+"""Every page in a browser. Skipped without Chromium."""
 
 import re
 from pathlib import Path
@@ -6,8 +6,7 @@ from urllib.parse import unquote, urljoin, urlparse
 
 import pytest
 
-from tests.book.conftest import DESKTOP, PHONE
-from tests.helpers.browser import complaints_of, needs_browser
+from tests.helpers.browser import DESKTOP, PHONE, complaints_of, needs_browser
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +22,7 @@ def test_every_page_without_an_error_a_request_elsewhere_or_a_scroll_bar(site, b
     page = context.new_page()
     complaints = complaints_of(page, (site, f"blob:{site}", "data:"))
     for name in names:
-        # to wait until nothing is loaded any more takes half a second: once a page, and where a page leads to another
+        # waiting until everything is loaded takes half a second: once for each page, and if a page leads to another
         is_patient = (viewport, scheme) == (DESKTOP, "light") or name == "index.html"
         page.goto(urljoin(site, name), wait_until="networkidle" if is_patient else "load")
         assert complaints == [], name

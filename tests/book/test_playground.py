@@ -13,9 +13,8 @@ from safe.companion import paper
 from safe.maze import ways_to_goal
 from safe.playground import address
 from safe.results import statistics
-from tests.book.conftest import DESKTOP, PHONE
-from tests.helpers.browser import complaints_of, needs_browser
-from tests.playground.test_address import maze_of, run_at
+from tests.helpers.addresses import maze_of, run_at
+from tests.helpers.browser import DESKTOP, PHONE, complaints_of, needs_browser
 
 pytestmark = needs_browser
 

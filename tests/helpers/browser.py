@@ -1,4 +1,4 @@
-"""A browser for the tests, and what serves files to it. Tests that need one are skipped where there is none."""
+"""A browser for the tests, and a server of files. Without Chromium, the tests that need it are skipped."""
 
 import functools
 import http.server
@@ -16,6 +16,8 @@ BROWSERS = (
 )
 BROWSER = next((found for name in BROWSERS if (found := shutil.which(name))), None)
 
+DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 800}
+
 needs_browser = pytest.mark.skipif(BROWSER is None, reason="no Chromium found: install Debian's chromium, or Chrome")
 
 
@@ -26,7 +28,7 @@ class Quiet(http.server.SimpleHTTPRequestHandler):
 
 @contextmanager
 def serving(folder):
-    """The address at which a folder is served, on this machine alone."""
+    """Serve a folder to this machine alone; gives its address."""
     handler = functools.partial(Quiet, directory=folder)
     with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
         threading.Thread(target=server.serve_forever).start()
@@ -37,8 +39,8 @@ def serving(folder):
 
 
 def complaints_of(page, here, logged=("error",)):
-    """A list, to which is added what goes wrong in a page: what it logs as one of these kinds, errors that nobody
-    caught, answers that say so, and requests to addresses that do not begin with one of `here`."""
+    """A list that collects what goes wrong in a page: messages of the kinds in `logged`, uncaught errors, answers with
+    an error status, and requests to addresses that do not begin with one of `here`."""
     complaints = []
 
     def add_where(is_wrong, complaint):
@@ -54,7 +56,7 @@ def complaints_of(page, here, logged=("error",)):
 
 @contextmanager
 def chromium():
-    """A browser, without a window."""
+    """A browser without a window."""
     sync_api = pytest.importorskip("playwright.sync_api")
     with sync_api.sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"])

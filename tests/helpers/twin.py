@@ -32,17 +32,17 @@ IN_PAGE = "async text => (await import(new URL('call.mjs', document.baseURI))).a
 
 
 class Twin:
-    """The engine somewhere, by what hands it the text of calls and gives back the text of answers (see call.mjs)."""
+    """The engine, reached by a function that takes the text of calls and gives the text of answers (see call.mjs)."""
 
     def __init__(self, exchange: Callable[[str], str]) -> None:
         self._exchange = exchange
 
     def answers(self, calls: Sequence[dict]) -> list[dict]:
-        """To each call {"function": ..., arguments by their names}: a `result`, or an `error` and its `stack`."""
+        """The answer to each call {"function": ..., arguments by name}: a `result`, or an `error` and its `stack`."""
         return json.loads(self._exchange(json.dumps(list(calls), allow_nan=False)))
 
     def results(self, calls: Sequence[dict]) -> list:
-        """The results of calls that must not fail."""
+        """The results of calls, none of which may fail."""
         calls = list(calls)
         answers = self.answers(calls)
         for call, answer in zip(calls, answers, strict=True):
@@ -64,7 +64,7 @@ def in_node():
             node.stdin.write(text + "\n")
             node.stdin.flush()
             line = node.stdout.readline()
-            assert line, "Node has ended; it says why on stderr"
+            assert line, "Node has ended; stderr says why"
             return line
 
         yield Twin(exchange)
@@ -85,7 +85,7 @@ TWINS = (
 )
 
 
-# What the package is given and what it gives, as the engine has it
+# Arguments and results of the package, in the form of the engine
 
 
 def algorithm_of(algorithm: Algorithm | str) -> dict | str:
@@ -113,8 +113,8 @@ def run_of(function: str, maze: Maze, algorithm: Algorithm | str, seed: Seed, pa
     }
 
 
-def told(run: Run) -> dict:
-    """A run or a generation of the package as the engine tells it."""
+def as_in_engine(run: Run) -> dict:
+    """A run or a generation of the package, in the form of the engine."""
     fields = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in vars(run).items()}
     if isinstance(run, Generation):
         fields["objectiveFitness"] = fields.pop("objective_fitness")

@@ -1,12 +1,11 @@
-"""What holds for every notebook. That they execute is tested with the book."""
+"""Rules for every notebook. The tests of the book execute them."""
 
 import json
-from pathlib import Path
 
 import papermill
 import pytest
 
-NOTEBOOKS = sorted((Path(__file__).parents[2] / "notebooks").glob("*.ipynb"))
+from tests.notebooks import NOTEBOOKS
 
 
 @pytest.fixture(params=NOTEBOOKS, ids=lambda path: path.stem)

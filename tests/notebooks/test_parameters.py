@@ -9,7 +9,7 @@ import pandas as pd
 import papermill
 import pytest
 
-from tests.notebooks.test_notebooks import NOTEBOOKS
+from tests.notebooks import NOTEBOOKS
 
 mpl.use("agg")
 

@@ -1,56 +1,15 @@
 """Addresses say what they are addresses of: read again, they give the same maze, the same algorithm, the same run."""
 
-import base64
-from urllib.parse import unquote
-
 import numpy as np
 import pytest
 from hypothesis import given
 
 import safe
 from safe.playground.address import drive_address, run_address
-from tests.conftest import controllers, mazes
+from tests.helpers.addresses import algorithm_of, maze_of, run_at, values_of
+from tests.helpers.strategies import controllers, mazes
 
 FEW = safe.Parameters(population=20, objectives=10, generations=3, elites=0, mutation=0.25)
-
-
-def values_of(address):
-    """The values of an address by their keys, unescaped as a browser does."""
-    return {key: unquote(value) for key, value in (part.split("=") for part in address.split("&"))}
-
-
-def maze_of(text):
-    if "/" not in text:
-        return safe.load_maze(text)
-    size, start, goal, bits = text.split("/")
-    height, width = map(int, size.split("x"))
-    packed = np.frombuffer(base64.urlsafe_b64decode(bits + "=" * (-len(bits) % 4)), dtype=np.uint8)
-    assert len(packed) == -(-height * width // 8)
-    walls = np.unpackbits(packed, count=height * width).reshape(height, width)
-    return safe.Maze(walls, *(tuple(map(int, cell.split(","))) for cell in (start, goal)))
-
-
-def algorithm_of(text):
-    if ":" not in text:
-        return safe.ALGORITHMS[text]
-    name, rating, objectives = text.split(":")
-    numbers = [float(number) for number in objectives.split(",")] if objectives not in ("drawn", "") else []
-    pairs = None if objectives == "drawn" else list(zip(numbers[::2], numbers[1::2], strict=True))
-    return safe.Algorithm(name, pairs, {"none": "none", "genotypic": "genotypic novelty"}[rating])
-
-
-def seed_of(text):
-    entropy, run = text.split("/")
-    return np.random.SeedSequence(int(entropy, 0), spawn_key=(int(run),))
-
-
-def run_at(address):
-    """The run that an address says, made from it alone."""
-    values = values_of(address)
-    assert values.pop("view") == "watch"
-    maze, algorithm, seed = (values.pop(key) for key in ("maze", "algorithm", "seed"))
-    own = {name: (float if "." in value else int)(value) for name, value in values.items()}
-    return safe.evolve(maze_of(maze), algorithm_of(algorithm), seed_of(seed), safe.Parameters(**own))
 
 
 ALGORITHMS = [

@@ -1,6 +1,5 @@
-"""The engine of the playground gives what the package gives, bit for bit. Skipped without Node, without Chromium."""
+"""The engine of the playground gives what the package gives, bit for bit. Skipped without Node and Chromium."""
 
-import functools
 import json
 from pathlib import Path
 
@@ -10,19 +9,18 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import safe
-from safe import Algorithm, Experiment, Maze, NoveltyArchive, Parameters, checks, load_maze
+from safe import Algorithm, Maze, NoveltyArchive, Parameters, checks, load_maze
 from safe.maze import ways_to_goal
 from safe.maze_files import MAZE_FOLDER, parse_maze
 from safe.novelty import METRICS
-from tests.conftest import controllers, mazes
 from tests.helpers import fuzz, golden, record
-from tests.helpers.twin import TWINS, in_node, needs_node, run_of, told
-from tests.test_maze_files import BAD_DRAWINGS, BAD_LISTS
-from tests.test_novelty import generations_of_points
-from tests.test_robot import reference_endpoints
+from tests.helpers.maze_texts import BAD_DRAWINGS, BAD_LISTS
+from tests.helpers.reference import reference_endpoints
+from tests.helpers.runs import runs_of_every_kind
+from tests.helpers.strategies import controllers, generations_of_points, mazes
+from tests.helpers.twin import TWINS, as_in_engine, in_node, needs_node, run_of
 
 DATA = Path(__file__).parents[1] / "data"
-RUNS = 200
 
 
 @pytest.fixture(scope="module", params=TWINS)
@@ -35,7 +33,7 @@ def twin(request):
 
 
 def described(maze):
-    """A maze as the engine tells it."""
+    """A maze in the form of the engine."""
     return {
         "name": maze.name,
         "height": maze.shape[0],
@@ -48,7 +46,7 @@ def described(maze):
 
 
 def parsed(text):
-    """What comes of a text, as an answer of the twin."""
+    """The answer that the twin must give to a text: its maze, or the complaint."""
     try:
         return {"result": described(parse_maze(text))}
     except ValueError as error:
@@ -82,7 +80,7 @@ def test_whatever_the_text_it_is_the_same_maze_or_the_same_words(twin, texts):
     assert_parsed_alike(twin, texts)
 
 
-# characters that every edition of Unicode knows, which are as good as any
+# only characters that every version of Unicode has: Python and a browser may know different versions
 @given(
     texts=st.lists(st.text(st.characters(codec="latin-1") | st.sampled_from("٣\u2028\u3000\ud800\ue000😀\U000e0001")))
 )
@@ -129,7 +127,7 @@ def test_every_reference_end_point(twin):
 
 
 def archived(generations, **arguments):
-    """What the package's archive tells after each generation, as the engine's does."""
+    """The package's archive after each generation, in the form of the engine."""
     archive = NoveltyArchive(**arguments)
     for points in generations:
         novelty = archive.score(points).tolist()
@@ -144,9 +142,9 @@ def archived(generations, **arguments):
 def test_every_reference_score(twin, points, scores, metric):
     with np.load(DATA / "novelty.npz") as reference:
         generations, expected = reference[points].tolist(), reference[scores]
-    (told,) = twin.results([{"function": "NoveltyArchive", "metric": metric, "generations": generations}])
-    np.testing.assert_allclose([after["novelty"] for after in told], expected, rtol=0, atol=1e-12)
-    assert told == list(archived(generations, metric=metric))
+    (found,) = twin.results([{"function": "NoveltyArchive", "metric": metric, "generations": generations}])
+    np.testing.assert_allclose([after["novelty"] for after in found], expected, rtol=0, atol=1e-12)
+    assert found == list(archived(generations, metric=metric))
 
 
 @given(
@@ -159,103 +157,25 @@ def test_every_reference_score(twin, points, scores, metric):
 )
 def test_scores_and_archives_of_any_points(twin, generations, capacity, k, metric):
     settings = {"capacity": capacity, "k": k, "metric": metric}
-    (told,) = twin.results([{"function": "NoveltyArchive", "generations": generations, **settings}])
-    assert told == list(archived(generations, **settings))
+    (found,) = twin.results([{"function": "NoveltyArchive", "generations": generations, **settings}])
+    assert found == list(archived(generations, **settings))
 
 
 # Runs
-
-
-def drawn_maze(rng):
-    """A maze with walls at random."""
-    while True:
-        height, width = rng.integers(2, 40, 2)
-        cells = [tuple(map(int, rng.integers((height, width)))) for _ in range(2)]
-        try:
-            return Maze(rng.random((height, width)) < 0.3, *cells)
-        except ValueError:  # an end in a wall, no way between them
-            continue
-
-
-def drawn_algorithm(rng):
-    """One by its name, or any that one might write."""
-    given = rng.uniform(-0.2, 1, (2 * int(rng.integers(2, 9)), 2)).tolist()
-    return [
-        *safe.ALGORITHMS,
-        Algorithm("a quarter", [(0.25, 0.75)]),
-        Algorithm("several", given[: rng.integers(1, len(given))]),
-        Algorithm("drawn", None),
-        Algorithm("given", given, "genotypic novelty"),
-    ][rng.integers(9)]
-
-
-def drawn_parameters(rng):
-    return Parameters(
-        population=2 * int(rng.integers(2, 25)),
-        objectives=2 * int(rng.integers(2, 25)),
-        generations=int(rng.integers(1, 40)),
-        tournament=int(rng.integers(1, 8)),
-        elites=int(rng.choice([0, 2, 2])),
-        crossover=rng.choice([0.0, 0.8, 1.0]),
-        mutation=rng.choice([0.0, 0.4, 1.0]),
-        k=int(rng.choice([1, 4, 15, 200, 1_000_000])),
-        archive=int(rng.choice([0, 1, 30, 200, 1000])),
-        steps=int(rng.choice([1, 50, 300, 1001])),
-        success_distance=int(rng.choice([0, 0, 2, 5])),
-    )
-
-
-def drawn_seed(rng):
-    """A seed in one of its forms."""
-    words = [int(word) for word in rng.integers(2**63, size=5)]
-    return [
-        words[0] % 1000,
-        words[0],
-        (words[0] << 200) + words[1],
-        words,
-        np.random.SeedSequence(words[0], spawn_key=words[3:4]).spawn(2)[1],
-        Experiment("safe", "maze1", seed=words[0]).seed_sequence(17),
-    ][rng.integers(6)]
-
-
-@functools.cache
-def runs_of_every_kind():
-    """The arguments of 200 runs."""
-    rng = np.random.default_rng(2019)
-    papers = [load_maze("maze1"), load_maze("maze2")]
-    runs = [
-        (
-            drawn_maze(rng) if rng.random() < 0.5 else papers[rng.integers(2)],
-            drawn_algorithm(rng),
-            drawn_seed(rng),
-            drawn_parameters(rng),
-        )
-        for _ in range(RUNS - 5)
-    ]
-    large, far_apart = np.zeros((300, 260), dtype=bool), Parameters(40, 40, generations=8, steps=5000, archive=50)
-    smallest = Parameters(2, 2, elites=0, generations=30)
-    return [
-        *runs,
-        (Maze(large, (150, 130), (0, 0)), "novelty", 0, far_apart),
-        (Maze(large, (150, 130), (0, 0)), "safe", 2**64, far_apart),
-        (papers[0], "safe", 0, smallest),
-        (papers[1], "novelty", [0, 0], smallest),
-        (Maze.from_drawing("SG"), "fixed", [2**40], Parameters(generations=3)),
-    ]
 
 
 def test_runs_of_every_kind(twin):
     runs = runs_of_every_kind()
     found = twin.results(run_of("evolve", *run) for run in runs)
     for run, got in zip(runs, found, strict=True):
-        assert got == told(safe.evolve(*run)), run
+        assert got == as_in_engine(safe.evolve(*run)), run
     assert {got["success"] for got in found} == {False, True}
 
 
 def test_every_generation_of_some_of_them(twin):
     for run in runs_of_every_kind()[::4]:
         (found,) = twin.results([run_of("generations", *run)])
-        assert found == [told(generation) for generation in safe.generations(*run)], run
+        assert found == [as_in_engine(generation) for generation in safe.generations(*run)], run
 
 
 @pytest.mark.parametrize("maze", ["maze1", "maze2"])
@@ -263,7 +183,7 @@ def test_every_generation_of_some_of_them(twin):
 def test_every_generation_until_the_archives_are_full_and_beyond(twin, algorithm, maze):
     run = load_maze(maze), algorithm, 7, Parameters(generations=9, success_distance=0)
     (found,) = twin.results([run_of("generations", *run)])
-    assert found == [told(generation) for generation in safe.generations(*run)]
+    assert found == [as_in_engine(generation) for generation in safe.generations(*run)]
 
 
 @pytest.mark.parametrize("archive", [0, 300, 1000])
@@ -346,7 +266,7 @@ def test_golden_runs():
 
 
 def test_runs_behind_the_ledger(twin):
-    """The soonest to succeed of each evolutionary algorithm's 500 in either maze, as they were recorded."""
+    """Of each evolutionary algorithm in each maze, the three of 500 recorded runs that succeed soonest."""
     recorded = record.recorded_runs()
     calls, expected = [], []
     for experiment in record.experiments():
@@ -367,7 +287,7 @@ def test_the_default_parameters(twin):
     call = run_of("evolve", load_maze("maze1"), "random", 5, Parameters())
     del call["parameters"]
     (found,) = twin.results([call])
-    assert found == told(safe.evolve("maze1", "random", 5))
+    assert found == as_in_engine(safe.evolve("maze1", "random", 5))
 
 
 seeds = st.integers(0, 2**300) | st.sampled_from([0, 1, 2**32 - 1, 2**32, 2**53, 2**64])

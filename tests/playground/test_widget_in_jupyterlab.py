@@ -12,27 +12,27 @@ import nbformat
 
 from tests.helpers.browser import chromium, complaints_of, needs_browser
 
-PATIENCE = 60  # seconds, for whatever should come; a machine may be busy
+PATIENCE = 60  # seconds to wait for anything, since a machine may be busy
 SETTINGS = {
-    "@jupyterlab/notebook-extension:tracker": {"windowingMode": "none"},  # cells out of sight are there, too
-    "@jupyterlab/apputils-extension:notification": {"fetchNews": "false", "checkForUpdates": False},  # elsewhere
+    "@jupyterlab/notebook-extension:tracker": {"windowingMode": "none"},  # cells out of sight are in the page, too
+    "@jupyterlab/apputils-extension:notification": {"fetchNews": "false", "checkForUpdates": False},  # offline
 }
 
 
 @contextmanager
 def jupyter(folder):
-    """The address of a JupyterLab that serves a folder, and knows no settings but its own."""
+    """Start JupyterLab in a folder, with settings from there alone; gives its address."""
     settings = folder / "config" / "labconfig" / "default_setting_overrides.json"
     settings.parent.mkdir(parents=True)
     settings.write_text(json.dumps(SETTINGS))
     own = {f"JUPYTER_{kind.upper()}_DIR": str(folder / kind) for kind in ("config", "data", "runtime")}
     options = {
         "ServerApp.ip": "127.0.0.1",
-        "ServerApp.port": 0,  # any that is free
+        "ServerApp.port": 0,  # any free port
         "ServerApp.root_dir": folder,
         "ServerApp.allow_root": True,
         "IdentityProvider.token": "",
-        "LabApp.extension_manager": "readonly",  # the other asks PyPI
+        "LabApp.extension_manager": "readonly",  # any other asks PyPI
     }
     command = [
         sys.executable,
@@ -46,11 +46,11 @@ def jupyter(folder):
     with log.open("w") as stderr, subprocess.Popen(command, env=environment, stderr=stderr) as server:
         try:
             late = time.monotonic() + PATIENCE
-            while not (told := "".join(file.read_text() for file in (folder / "runtime").glob("jpserver-*.json"))):
+            while not (info := "".join(file.read_text() for file in (folder / "runtime").glob("jpserver-*.json"))):
                 assert server.poll() is None, log.read_text()
                 assert time.monotonic() < late, log.read_text()
                 time.sleep(0.1)
-            yield json.loads(told)["url"]  # told when it is ready
+            yield json.loads(info)["url"]  # the file is written when the server is ready
         finally:
             server.terminate()
 
@@ -64,7 +64,7 @@ class Notebook:
         nbformat.write(nbformat.v4.new_notebook(cells=code, metadata=kernel), folder / "test.ipynb")
         self.page, self.names = page, list(cells)
         page.goto(f"{address}doc/tree/test.ipynb")
-        page.get_by_text(re.compile(r"^Python 3.* \| Idle$")).wait_for()  # a cell that is run before is not
+        page.get_by_text(re.compile(r"^Python 3.* \| Idle$")).wait_for()  # before that, no cell runs
 
     def cell(self, name):
         return self.page.locator(".jp-Notebook .jp-CodeCell").nth(self.names.index(name))
@@ -85,7 +85,7 @@ class Notebook:
         return printed
 
     def run_until(self, name, printed):
-        """Run a cell again and again until it prints this: what the page tells the kernel takes its time."""
+        """Run a cell again and again until it prints this: messages from the page to the kernel take time."""
         late = time.monotonic() + PATIENCE
         while (found := self.run(name)) != printed:
             assert time.monotonic() < late, f"{name} printed {found!r}"
@@ -170,7 +170,7 @@ def test_page_and_kernel_change_the_same(tmp_path):
         wait_for("1", "spinbutton", "Run")
         field("slider", "Speed").press("End")
         field("button", "Play").click()
-        assert notebook.run("run").endswith("True")  # behind what it may say of compiling
+        assert notebook.run("run").endswith("True")  # after messages about compiling
         notebook.run_until("result", "True")
         assert notebook.run("driven") == "True"
         view.get_by_role("tab", name="Drive").click()

@@ -1,0 +1,45 @@
+"""A checkout of the repository for tests, in which they execute notebooks and build the book."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+RUNS = "4"  # of each experiment
+PARTS = ["_config.yml", "benchmarks", "book", "notebooks", "safe"]
+
+
+def make(folder):
+    """Copy the checkout into a new folder, execute all its notebooks and build the book."""
+    folder.mkdir()
+    for part in PARTS:
+        if (ROOT / part).is_dir():
+            # with __pycache__, for the compiled kernels: copies keep the times by which numba recognises them
+            shutil.copytree(ROOT / part, folder / part)
+        else:
+            shutil.copy(ROOT / part, folder)
+    for made in (execute(folder), build(folder)):
+        assert made.returncode == 0, output_of(made)
+
+
+def execute(folder, *arguments, **options):
+    """Run book/execute.py in a checkout."""
+    return _call(folder, sys.executable, "book/execute.py", *arguments, **options)
+
+
+def build(folder, *arguments, **options):
+    """Build the book of a checkout."""
+    command = Path(sys.executable).with_name("jupyter-book")
+    settings = "--toc", "book/_toc.yml", "-W", "--keep-going", "-n"
+    return _call(folder, command, "build", ".", *settings, *arguments, **options)
+
+
+def _call(folder, *command, runs=RUNS):
+    environment = {**os.environ, "RUNS": runs, "NO_COLOR": "1"}
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
+
+
+def output_of(process):
+    return process.stdout + process.stderr
