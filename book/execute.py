@@ -107,7 +107,7 @@ def main() -> None:
     if not options.names and store.exists():
         try:
             same = safe.verify(store, SAMPLE)
-        except ValueError as error:
+        except safe.StoreError as error:
             sys.exit(f"the stored results cannot be trusted: {error}")
         print(f"{len(same)} stored runs, drawn at random, were repeated and gave the same results", flush=True)
 

@@ -5,7 +5,7 @@ import safe
 from safe.companion import paper
 from safe.experiments.experiment import WEIGHT_COLUMNS as WEIGHTS
 from safe.results import tables
-from tests.results.test_tables import experiment, runs
+from tests.helpers.results import experiment, runs
 
 
 def test_the_papers_numbers_come_along():

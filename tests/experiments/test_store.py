@@ -4,6 +4,7 @@ import os
 import sqlite3
 from contextlib import closing
 from dataclasses import replace
+from pathlib import Path
 
 import pandas as pd
 import pytest
@@ -107,9 +108,9 @@ def test_files_that_are_no_store(tmp_path):
     assert (tmp_path / "foreign").read_bytes() == before
 
 
-def test_a_message_shows_the_whole_path_or_its_end(tmp_path):
+def test_a_message_shows_the_whole_path_or_its_end():
     for length in (90, 200):
-        folder = tmp_path / "x" * (length - len(str(tmp_path)))
+        folder = Path("none") / ("x" * length)
         with pytest.raises(StoreError, match=r"s\.sqlite' \(there is no such file\)$") as caught:
             Store(folder / "s.sqlite", must_exist=True)
         assert (f"got '{folder}" in str(caught.value)) == (length == 90)

@@ -15,10 +15,12 @@ from pathlib import Path
 
 import atheris
 
-READERS = {"checks", "maze", "store"}
-PACKAGE = Path(__file__).parents[2] / "safe"
-# Atheris knows only whole packages and what to leave out of them. Kernels cannot be compiled with its marks in them.
-OTHERS = [f"safe.{file.stem}" for file in PACKAGE.glob("*.py") if file.stem not in READERS]
+READERS = {"safe.checks", "safe.maze", "safe.maze_files", "safe.experiments.store"}
+ROOT = Path(__file__).parents[2]
+FILES = (ROOT / "safe").rglob("*.py")
+MODULES = {".".join(file.relative_to(ROOT).with_suffix("").parts) for file in FILES if file.stem != "__init__"}
+# Atheris instruments whole packages, apart from the modules to exclude. Kernels cannot be compiled with its marks.
+OTHERS = sorted(MODULES - READERS)
 
 with atheris.instrument_imports(include=["safe"], exclude=OTHERS):
     from tests.helpers import fuzz

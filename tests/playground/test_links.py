@@ -4,7 +4,7 @@ import pytest
 import safe
 from safe.playground import links
 from safe.playground.address import run_address
-from tests.results.test_tables import mazes_of_one_name, runs, seeds, values_of_k
+from tests.helpers.results import mazes_of_one_name, runs, seeds, values_of_k
 
 SMALL = safe.Parameters(population=4, elites=0, generations=1)
 

@@ -13,7 +13,7 @@ import safe
 from safe.companion.paper import reported
 from safe.experiments.experiment import WEIGHT_COLUMNS
 from safe.results import figures, tables
-from tests.results.test_tables import runs
+from tests.helpers.results import runs
 
 mpl.use("agg")
 MAZE = safe.Maze.from_drawing("S..#\n.#..\n...G", name="small")

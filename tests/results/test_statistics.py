@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy import stats
 
 from safe.results import statistics
-from tests.results.test_tables import runs
+from tests.helpers.results import runs
 
 
 @pytest.mark.parametrize(

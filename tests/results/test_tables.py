@@ -1,6 +1,5 @@
 import re
 
-import numpy as np
 import pandas as pd
 import pytest
 
@@ -8,17 +7,7 @@ import safe
 from safe.companion.paper import reported
 from safe.experiments.experiment import WEIGHT_COLUMNS as WEIGHTS
 from safe.results import tables
-
-
-def runs(successes, n, generations=(), **columns):
-    success = np.arange(n) < successes
-    generation = np.full(n, 499)
-    generation[: len(generations)] = generations
-    return pd.DataFrame({"run": np.arange(n), "success": success, "generation": generation, **columns})
-
-
-def experiment(maze, algorithm, **options):
-    return safe.Experiment(algorithm, maze, **options)
+from tests.helpers.results import experiment, mazes_of_one_name, runs, seeds, values_of_k
 
 
 def some_results():
@@ -122,20 +111,6 @@ def test_without_a_paper_its_columns_are_empty():
     ):
         assert table.filter(like="paper").isna().all(axis=None)
         assert table[["difference", "p_value"]].isna().all(axis=None)
-
-
-def mazes_of_one_name():
-    mazes = [safe.Maze.from_drawing(drawing, "maze") for drawing in ("S.G", "G.S")]
-    return [experiment(maze, "safe") for maze in mazes], r"maze \(digest ......\)", "safe"
-
-
-def values_of_k():
-    values = [experiment("maze1", "safe", parameters=safe.Parameters(k=k)) for k in (5, 15, 30)]
-    return values, "maze1", r"safe \(k = \d+\)"
-
-
-def seeds():
-    return [experiment("maze1", "safe", seed=seed) for seed in (0, 1)], "maze1", r"safe \(seed [01]\)"
 
 
 @pytest.mark.parametrize("make", [mazes_of_one_name, values_of_k, seeds])
