@@ -1,13 +1,10 @@
 """What the tests of the book share: a checkout with every notebook executed, and the book built from it."""
 
-import fcntl
-from contextlib import contextmanager
-
 import pytest
 
 from safe.evolution import compile_kernels
 from tests.helpers.browser import chromium, serving
-from tests.helpers.checkout import make
+from tests.helpers.checkout import locked, make
 
 
 @pytest.fixture(scope="session")
@@ -16,7 +13,7 @@ def checkout(tmp_path_factory, worker_id):
     temporary = tmp_path_factory.getbasetemp()
     folder = (temporary if worker_id == "master" else temporary.parent) / "checkout"
     made = folder.with_suffix(".made")
-    with locked(folder.with_suffix(".lock")):
+    with locked(folder):
         if not made.exists():
             compile_kernels()  # before they are copied
             make(folder)
@@ -24,18 +21,10 @@ def checkout(tmp_path_factory, worker_id):
     return folder
 
 
-@contextmanager
-def locked(path):
-    """Only one process at a time is in this context."""
-    with path.open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        yield
-
-
 @pytest.fixture
 def alone_in_checkout(checkout):
     """For a test that changes the checkout, or would notice that another does: they run one after the other."""
-    with locked(checkout.with_suffix(".lock")):
+    with locked(checkout):
         yield
 
 

@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from tests.helpers.checkout import RUNS, build, execute, output_of
+from tests.helpers.checkout import RUNS, build, execute, locked, output_of
 
 
 @pytest.fixture
@@ -139,10 +139,10 @@ def test_without_an_address_of_the_repository_no_page_links_to_one(pages):
         assert not re.search("mybinder|colab|/edit/", page), name
 
 
-@pytest.mark.usefixtures("alone_in_checkout")
 def test_with_an_address_there_are_buttons(checkout, tmp_path):
     folder = tmp_path / "with address"
-    shutil.copytree(checkout, folder, ignore=shutil.ignore_patterns("_build"))
+    with locked(checkout):
+        shutil.copytree(checkout, folder, ignore=shutil.ignore_patterns("_build"))
     config = folder / "_config.yml"
     config.write_text(config.read_text().replace('url: ""', 'url: "https://github.com/someone/something"'))
     built = build(folder)

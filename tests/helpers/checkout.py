@@ -1,14 +1,24 @@
 """A checkout of the repository for tests, in which they execute notebooks and build the book."""
 
+import fcntl
 import os
 import shutil
 import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 RUNS = "4"  # of each experiment
 PARTS = ["_config.yml", "benchmarks", "book", "notebooks", "safe"]
+
+
+@contextmanager
+def locked(folder):
+    """Keep all other processes that ask for it out of a folder, which need not exist yet."""
+    with folder.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
 
 
 def make(folder):
