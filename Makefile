@@ -1,4 +1,4 @@
-# `make` alone lists what can be made. `make book` and `make test` start from nothing but Python and make.
+# `make` alone lists the targets. `make book` and `make test` need nothing but Python and make.
 
 PYTHON ?= python3
 RUNS ?= 500
@@ -45,30 +45,30 @@ fuzz: .venv/installed-for-fuzzing ## CASES malformed inputs (100000), with bound
 	@if $(BIN)/python -c 'import atheris' 2>/dev/null; then set -x; \
 		$(BOUNDS_CHECKED) $(BIN)/python -m tests.helpers.fuzz_atheris "maze texts" 20000 && \
 		$(BOUNDS_CHECKED) $(BIN)/python -m tests.helpers.fuzz_atheris "damaged stores" 2000; \
-	else echo "No wheel of atheris for this system: without the cases that it would make up."; fi
+	else echo "No wheel of atheris for this system: without the cases that it would generate."; fi
 
-bench: .venv/installed-for-tests ## time the parts, the paper's experiments and their peers, with RUNS runs of each (500)
+bench: .venv/installed-for-tests ## time the package's parts, the paper's experiments and peers, with RUNS runs of each (500)
 	$(BIN)/pytest benchmarks --benchmark-json=benchmarks/results.json --benchmark-columns=median,iqr,rounds
 
-format: .venv/installed-for-tests ## bring the code into its form
-	$(BIN)/ruff format .
+format: .venv/installed-for-tests ## format and lint the code
 	$(BIN)/ruff check --fix .
-	$(DENO) fmt
+	$(BIN)/ruff format .
 	$(DENO) lint --fix
+	$(DENO) fmt
 
-picture: env ## draw the picture of the README anew
+picture: env ## draw the picture of the README
 	$(BIN)/python book/picture.py
 
-constraints: env ## choose the newest versions of all packages anew (constraints.txt)
+constraints: env ## choose the newest versions of all packages (constraints.txt)
 	$(BIN)/python -m pip install --quiet uv
 	$(BIN)/uv pip compile --universal --python-version 3.11 --all-extras --upgrade --no-annotate \
 		--custom-compile-command "make constraints" --output-file constraints.txt pyproject.toml
 
-clean: ## remove what can be made again, but for the environment and the results
+clean: ## remove what can be made again, except the environment and the results
 	rm -rf _build executed .numba-boundscheck .pytest_cache .hypothesis .ruff_cache
 	find safe tests book benchmarks -name __pycache__ -exec rm -rf {} +
 
-# The newest pip, since that of Python takes minutes to choose what constraints.txt has chosen.
+# The newest pip, since older ones take minutes to resolve what constraints.txt has fixed.
 .venv/created:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; this is " + sys.version.split()[0] + ". Name another: make PYTHON=...")'
 	$(PYTHON) -m venv .venv

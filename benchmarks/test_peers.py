@@ -154,7 +154,7 @@ def add(archive, points):
 
 
 def by_pyribs(compute):
-    """Novelty in the archive alone, without the population, of an archive that is filled, its tree built, beforehand.
+    """Novelty with respect to a filled archive alone, without the population, whose tree is already built.
 
     The distance is always Euclidean, which for end points is not the rule.
     """

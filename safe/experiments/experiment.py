@@ -184,7 +184,7 @@ def run(
     StoreError
         If the store is no results store, cannot be read or written, or is damaged.
     ValueError
-        If the executor is none, or computes by other rules.
+        If `executor` is not an Executor, or computes by other rules.
 
     Examples
     --------

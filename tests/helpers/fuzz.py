@@ -439,15 +439,15 @@ def try_playground(case: tuple) -> None:
             playground.set_state({name: value})
         else:
             setattr(playground, name, value)
-        told = json.dumps(playground.get_state(TRAITS), allow_nan=False)
-        playground.set_state(json.loads(told))
-        assert json.dumps(playground.get_state(TRAITS)) == told
+        state = json.dumps(playground.get_state(TRAITS), allow_nan=False)
+        playground.set_state(json.loads(state))
+        assert json.dumps(playground.get_state(TRAITS)) == state
         safe.path(playground.maze, playground.controller, 1)
         safe.evolve(MAZE, "random", playground.seed, TINY)
 
 
 class Here(Executor):
-    """Computes where it is asked: a thread for every case would cost more than the case."""
+    """Computes in the calling thread, since a thread for every case would cost more than the case."""
 
     def submit(self, function: Callable, /, *args: object) -> Future:
         future = Future()

@@ -22,7 +22,7 @@ def playground():
 
 
 def page_of(playground):
-    """What the page is told of the traits."""
+    """The traits as the page receives them."""
     state = playground.get_state(["maze", "controller", "seed", "result"])
     return json.loads(json.dumps(state))
 
@@ -128,9 +128,9 @@ def test_a_generation_is_a_result(playground):
 def test_the_page_gives_the_run_that_python_would(playground, algorithm):
     run = safe.evolve("maze1", algorithm, 1, GENERATIONS)
     playground.result = run
-    told = page_of(playground)["result"]
+    shown = page_of(playground)["result"]
     playground.result = None
-    playground.set_state({"result": told})
+    playground.set_state({"result": shown})
     assert playground.result == run
     assert playground.controller == run.controller
 
