@@ -72,7 +72,7 @@ clean: ## remove what can be made again, except the environment and the results
 .venv/created:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; this is " + sys.version.split()[0] + ". Name another: make PYTHON=...")'
 	$(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --upgrade pip
+	$(BIN)/python -m pip install --quiet --quiet --upgrade pip
 	touch $@
 
 .venv/installed: .venv/created pyproject.toml requirements.txt constraints.txt
