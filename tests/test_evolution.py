@@ -78,17 +78,17 @@ def test_threads_do_not_disturb_each_other():
         assert list(pool.map(lambda seed: evolve("maze1", "safe", seed, parameters), range(8))) == one_by_one
 
 
-@pytest.mark.parametrize(("name", "weights"), [("standard", (1, 0)), ("novelty", (0, 1)), ("fixed", (0.5, 0.5))])
-def test_a_frozen_objective_function_is_the_algorithm(name, weights):
+@pytest.mark.parametrize(("name", "coefficients"), [("standard", (1, 0)), ("novelty", (0, 1)), ("fixed", (0.5, 0.5))])
+def test_a_frozen_objective_function_is_the_algorithm(name, coefficients):
     # a population of equal objective functions judges as one of them does, whatever its size
-    frozen = Algorithm("frozen", objectives=[weights] * 7)
+    frozen = Algorithm("frozen", objectives=[coefficients] * 7)
     for seed in range(3):
         parameters = Parameters(generations=30)
         assert evolve("maze1", frozen, seed, parameters) == evolve("maze1", name, seed, parameters)
 
 
 def test_novelty_is_not_computed_where_it_cannot_matter_and_nothing_changes():
-    # a weight too small to matter makes novelty be computed: the run of the standard EA stays what it is
+    # with a coefficient too small to matter novelty is computed, and the run of the standard EA stays the same
     parameters = Parameters(generations=30)
     *_, without = generations("maze2", "standard", 4, parameters)
     *_, weighed = generations("maze2", Algorithm("weighed", [(1, 5e-324)]), 4, parameters)
