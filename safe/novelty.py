@@ -110,12 +110,12 @@ class NoveltyArchive:
 
     @property
     def points(self) -> np.ndarray:
-        """A copy of the archive's points, the oldest first: array of float, shape (len(archive), dimensions)."""
+        """The archive's points, the oldest first, as an array of float of shape (len(archive), dimensions); a copy."""
         return np.empty((0, 0)) if self._arrays is None else archived(self._arrays)[0]
 
     @property
     def scores(self) -> np.ndarray:
-        """A copy of the scores with which they entered: array of float, shape (len(archive),)."""
+        """The scores with which they entered, as an array of float of shape (len(archive),); a copy."""
         return np.empty(0) if self._arrays is None else archived(self._arrays)[1]
 
 
