@@ -10,8 +10,6 @@ INSTALL := $(BIN)/python -m pip install --quiet --quiet --disable-pip-version-ch
 DENO := DENO_NO_UPDATE_CHECK=1 $(BIN)/deno
 BUILD := $(BIN)/jupyter-book build . --toc book/_toc.yml --quiet --warningiserror --keep-going --nitpick
 BOUNDS_CHECKED := NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.numba-boundscheck
-TEST := $(BIN)/pytest --numprocesses logical --dist loadfile --no-loadscope-reorder
-KERNEL_TESTS := tests/test_evolution.py tests/test_neighbours.py tests/test_novelty.py tests/test_operators.py tests/test_robot.py
 
 .PHONY: help env execute book pdf test bench fuzz format picture constraints clean
 
@@ -37,8 +35,7 @@ test: .venv/installed-for-tests ## everything from nothing: environment, the tes
 	$(BIN)/ruff check .
 	$(DENO) fmt --check
 	$(DENO) lint
-	$(TEST)
-	$(BOUNDS_CHECKED) $(TEST) $(KERNEL_TESTS)
+	$(BIN)/pytest --numprocesses auto --dist loadfile --no-loadscope-reorder
 
 fuzz: .venv/installed-for-fuzzing ## CASES malformed inputs (100000), with bounds checking
 	$(BOUNDS_CHECKED) $(BIN)/python -m tests.helpers.fuzz $(CASES)

@@ -1,5 +1,6 @@
-"""How Hypothesis tries examples, and the order of the tests."""
+"""How Hypothesis tries examples, in how many processes the tests run, and in which order."""
 
+import os
 from pathlib import Path
 
 from hypothesis import HealthCheck, settings
@@ -13,11 +14,17 @@ settings.load_profile("default")
 HERE = Path(__file__).parent
 FIRST = (
     "book/test_book.py",  # makes the checkout, for which the rest of the book waits
+    "test_bounds.py",
     "notebooks/test_parameters.py",
     "test_benchmarks.py",
     "playground/test_widget_in_jupyterlab.py",
 )
 LAST = ("book/test_playground.py", "book/test_pages.py", "book/test_links.py", "book/test_bundled.py")
+
+
+def pytest_xdist_auto_num_workers():
+    """Two processes for each core, since tests often wait: for a browser, a kernel or another process."""
+    return 2 * (os.cpu_count() or 1)
 
 
 def pytest_collection_modifyitems(items):

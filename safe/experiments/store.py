@@ -218,7 +218,7 @@ class Store:
         """Turn an error of SQLite into a StoreError."""
         try:
             yield
-        except sqlite3.Error as error:
+        except (sqlite3.Error, UnicodeDecodeError) as error:  # SQLite quotes what is damaged, which may not be UTF-8
             raise self._refusal(demand, checks.reason(error)) from None
 
     def _refusal(self, demand: str, reason: str) -> StoreError:

@@ -1,6 +1,7 @@
 """The whole pipeline, on a copy of the checkout: notebooks executed at a few runs, the book built from them."""
 
 import csv
+import importlib
 import json
 import re
 import shutil
@@ -8,7 +9,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from tests.helpers.checkout import RUNS, build, execute, locked, output_of
+from tests.helpers.checkout import ROOT, RUNS, build, execute, locked, output_of
 
 
 @pytest.fixture
@@ -204,35 +205,56 @@ def test_what_is_up_to_date_is_not_executed_again(checkout):
     assert again.stdout.count("up to date") == len(list((checkout / "notebooks").glob("*.ipynb")))
 
 
+@pytest.fixture
+def book_of(monkeypatch):
+    """A module of book/, in this process, at work in a checkout."""
+    monkeypatch.syspath_prepend(ROOT / "book")
+
+    def book_of(checkout, name):
+        executed = importlib.import_module("executed")
+        for constant in ("NOTEBOOKS", "EXECUTED", "MEASUREMENTS"):
+            monkeypatch.setattr(executed, constant, checkout / getattr(executed, constant).relative_to(executed.ROOT))
+        monkeypatch.setattr(executed, "ROOT", checkout)
+        return importlib.import_module(name)
+
+    return book_of
+
+
 @pytest.mark.usefixtures("alone_in_checkout")
-@pytest.mark.parametrize("change", ["notebook", "package", "measurements", "runs", "missing"])
-def test_stale_copies_are_refused(checkout, change):
+@pytest.mark.parametrize("change", ["notebook", "package", "measurements", "parameters", "missing"])
+def test_stale_copies_are_recognised(checkout, book_of, change):
+    what_is_wrong = book_of(checkout, "executed").what_is_wrong
     notebook = checkout / "notebooks" / "table2-success.ipynb"
+    requested = {"runs": int(RUNS)}
+    assert what_is_wrong(notebook, requested) is None
     copy, module = checkout / "executed" / notebook.name, checkout / "safe" / "robot.py"
     measurements = checkout / "benchmarks" / "results.json"
     before = {file: file.read_bytes() for file in (notebook, copy, module, measurements)}
-    runs = RUNS
     if change == "notebook":
         notebook.write_bytes(before[notebook].replace(b"Who finds the goal", b"Who ever finds the goal"))
     elif change == "package":
         module.write_bytes(before[module] + b"# changed\n")
     elif change == "measurements":
         measurements.write_bytes(before[measurements] + b"\n")
-    elif change == "runs":
-        runs = "5"
+    elif change == "parameters":
+        requested = {"runs": 5}
     else:
         copy.unlink()
     try:
-        refused = build(checkout, runs=runs)
+        fault = what_is_wrong(notebook, requested)
     finally:
         for file, content in before.items():
             file.write_bytes(content)
+    expected = "was not executed" if change == "missing" else f"was executed before the {change} changed"
+    assert fault == expected
+
+
+@pytest.mark.usefixtures("alone_in_checkout")
+def test_a_stale_copy_stops_the_build(checkout):
+    refused = build(checkout, runs="5")
     assert refused.returncode != 0
-    reason = {
-        "missing": "was not executed",
-        "runs": "was executed before the parameters changed",
-    }.get(change, f"was executed before the {change} changed")
-    assert f"table2-success.ipynb {reason}" in re.sub(r"\s+", " ", output_of(refused))
+    reason = "table2-success.ipynb was executed before the parameters changed"
+    assert reason in re.sub(r"\s+", " ", output_of(refused))
 
 
 @pytest.mark.parametrize(
@@ -248,10 +270,13 @@ def test_stale_copies_are_refused(checkout, change):
         ([], "0", "RUNS must be an integer of at least 1; got '0'"),
     ],
 )
-def test_the_runner_refuses_what_it_does_not_know(checkout, arguments, runs, complaint):
-    refused = execute(checkout, *arguments, runs=runs)
-    assert refused.returncode != 0
-    assert re.search(complaint, re.sub(r"\s+", " ", refused.stderr))
+def test_the_runner_refuses_what_it_does_not_know(checkout, book_of, monkeypatch, capsys, arguments, runs, complaint):
+    monkeypatch.setenv("RUNS", runs)
+    monkeypatch.setattr("sys.argv", ["book/execute.py", *arguments])
+    with pytest.raises(SystemExit) as refused:
+        book_of(checkout, "execute").main()
+    assert refused.value.code != 0
+    assert re.search(complaint, re.sub(r"\s+", " ", capsys.readouterr().err))
 
 
 @pytest.mark.usefixtures("alone_in_checkout")

@@ -14,20 +14,28 @@ def names(html):
     return sorted(str(page.relative_to(html)) for page in html.rglob("*.html") if "_static" not in page.parts)
 
 
+TABS = 8  # pages that load side by side
+
+
 @needs_browser
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("viewport", [DESKTOP, PHONE], ids=["desktop", "phone"])
 def test_every_page_without_an_error_a_request_elsewhere_or_a_scroll_bar(site, browser, names, viewport, scheme):
     context = browser.new_context(viewport=viewport, color_scheme=scheme)
-    page = context.new_page()
-    complaints = complaints_of(page, (site, f"blob:{site}", "data:"))
-    for name in names:
-        # waiting until everything is loaded takes half a second: once for each page, and if a page leads to another
-        is_patient = (viewport, scheme) == (DESKTOP, "light") or name == "index.html"
-        page.goto(urljoin(site, name), wait_until="networkidle" if is_patient else "load")
-        assert complaints == [], name
-        wider = page.evaluate("document.documentElement.scrollWidth - window.innerWidth")
-        assert wider <= 0, f"{name} is {wider} pixels wider than the window"
+    tabs = [context.new_page() for _ in range(TABS)]
+    complaints = [complaints_of(tab, (site, f"blob:{site}", "data:")) for tab in tabs]
+    for first in range(0, len(names), TABS):
+        opened = list(zip(tabs, complaints, names[first : first + TABS], strict=False))
+        for tab, _, name in opened:
+            # index.html leads to another page, for which only it must wait
+            tab.goto(urljoin(site, name), wait_until="networkidle" if name == "index.html" else "commit")
+        for tab, complaints_of_tab, name in opened:
+            # once for each page, wait until it loads nothing more
+            is_patient = (viewport, scheme) == (DESKTOP, "light")
+            tab.wait_for_load_state("networkidle" if is_patient else "load")
+            wider = tab.evaluate("document.documentElement.scrollWidth - window.innerWidth")
+            assert complaints_of_tab == [], name
+            assert wider <= 0, f"{name} is {wider} pixels wider than the window"
     context.close()
 
 

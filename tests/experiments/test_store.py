@@ -120,6 +120,15 @@ def test_a_message_shows_the_whole_path_or_its_end():
 # Whatever happens to a store, a table is right, or one line says what is wrong
 
 
+def test_damage_that_sqlite_quotes_and_no_text_can_hold(store):
+    """Regression: a byte that is not UTF-8, in the text of a table's definition."""
+    healthy = store.read_bytes()
+    store.write_bytes(healthy.replace(b"coefficients TEXT NOT NULL", b"coefficients TEXT NOT \x80ULL"))
+    assert store.read_bytes() != healthy
+    with pytest.raises(StoreError, match="^store must be the path of a results store"):
+        Store(store)
+
+
 def assert_refused(store, reason):
     with pytest.raises(StoreError, match=rf"^store must .*; got .*{reason}") as caught:
         run(EXPERIMENT, store, progress=False)
