@@ -125,7 +125,7 @@ def test_damage_that_sqlite_quotes_and_no_text_can_hold(store):
     healthy = store.read_bytes()
     store.write_bytes(healthy.replace(b"coefficients TEXT NOT NULL", b"coefficients TEXT NOT \x80ULL"))
     assert store.read_bytes() != healthy
-    with pytest.raises(StoreError, match="^store must be the path of a results store"):
+    with pytest.raises(StoreError, match=r"^store must be the path of a results store"):
         Store(store)
 
 
