@@ -35,6 +35,7 @@ test: .venv/installed-for-tests ## everything from nothing: environment, the tes
 	$(BIN)/ruff check .
 	$(DENO) fmt --check
 	$(DENO) lint
+	$(BIN)/python -c 'from safe.evolution import compile_kernels; compile_kernels()' # once, not in every process
 	$(BIN)/pytest --numprocesses auto --dist loadfile --no-loadscope-reorder
 
 fuzz: .venv/installed-for-fuzzing ## CASES malformed inputs (100000), with bounds checking

@@ -23,8 +23,9 @@ LAST = ("book/test_playground.py", "book/test_pages.py", "book/test_links.py", "
 
 
 def pytest_xdist_auto_num_workers():
-    """Two processes for each core, since tests often wait: for a browser, a kernel or another process."""
-    return 2 * (os.cpu_count() or 1)
+    """Three processes for two cores, since tests often wait: for a browser, a kernel or another process."""
+    cores = os.cpu_count() or 1
+    return cores + (cores + 1) // 2
 
 
 def pytest_collection_modifyitems(items):
