@@ -19,7 +19,15 @@ FIRST = (
     "test_benchmarks.py",
     "playground/test_widget_in_jupyterlab.py",
 )
-LAST = ("book/test_playground.py", "book/test_pages.py", "book/test_links.py", "book/test_bundled.py")
+LAST = (
+    "book/test_playground_watch.py",
+    "book/test_pages.py",
+    "book/test_playground_drive_and_draw.py",
+    "book/test_playground_runs_and_addresses.py",
+    "book/test_playground_for_everybody.py",
+    "book/test_links.py",
+    "book/test_bundled.py",
+)
 
 
 def pytest_xdist_auto_num_workers():

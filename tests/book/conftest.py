@@ -3,7 +3,7 @@
 import pytest
 
 from safe.evolution import compile_kernels
-from tests.helpers.browser import chromium, serving
+from tests.helpers.browser import DESKTOP, chromium, complaints_of, serving
 from tests.helpers.checkout import locked, make
 
 
@@ -44,3 +44,21 @@ def site(html):
 def browser():
     with chromium() as browser:
         yield browser
+
+
+@pytest.fixture
+def visit(browser, site):
+    """Open the playground at an address, as a reader would. Whatever goes wrong in a page fails the test."""
+    visits = []
+
+    def open_page(fragment="", viewport=DESKTOP, page_name="book/playground.html", **options):
+        context = browser.new_context(viewport=viewport, **options)
+        page = context.new_page()
+        visits.append((context, complaints_of(page, (site, f"blob:{site}", "data:"), ("error", "warning"))))
+        page.goto(f"{site}{page_name}" + (f"#{fragment}" if fragment else ""))
+        return page
+
+    yield open_page
+    for context, _ in visits:
+        context.close()
+    assert [complaint for _, complaints in visits for complaint in complaints] == []

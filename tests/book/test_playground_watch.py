@@ -1,0 +1,231 @@
+"""The playground's view *Watch* in a browser, and runs of the book's tables replayed there.
+
+All that it computes is compared with the package.
+"""
+
+import re
+
+import pytest
+
+import safe
+from tests.helpers.addresses import run_at
+from tests.helpers.browser import needs_browser
+from tests.helpers.playground_page import (
+    QUICK,
+    QUICK_PARAMETERS,
+    address_of,
+    driven,
+    panel,
+    play_to_the_end,
+    status_of,
+)
+
+pytestmark = needs_browser
+
+
+# Watch
+
+
+def test_a_first_visit_opens_on_a_run_about_to_succeed(visit):
+    page = visit()
+    panel(page, "SAFE").get_by_text("Generation 40").wait_for()
+    assert "press Play" in page.locator(".welcome").inner_text()
+    page.get_by_role("button", name="Play").click()
+    panel(page, "SAFE").get_by_text("Success").wait_for()
+    assert panel(page, "SAFE").inner_text() == status_of(safe.evolve("maze1", "safe", 3))
+
+
+def test_algorithms_side_by_side_are_those_of_the_package(visit):
+    names = {"Standard EA": "standard", "Novelty search": "novelty", "SAFE": "safe", "Random search": "random"}
+    algorithms = "&".join(f"algorithm={name}" for name in names.values())
+    page = visit(f"maze=maze2&{algorithms}&seed=5&{QUICK}")
+    play_to_the_end(page, *names)
+    for title, name in names.items():
+        run = safe.evolve("maze2", name, 5, QUICK_PARAMETERS)
+        assert panel(page, title).inner_text() == status_of(run)
+        page.get_by_role("region", name=title).get_by_role("button", name="Drive the best").click()
+        assert driven(page) == list(run.controller)
+        page.get_by_role("tab", name="Watch").click()
+
+
+def test_one_generation_at_a_time_and_any_by_its_number(visit):
+    generations = [g.distance for g in safe.generations("maze1", "novelty", 8, QUICK_PARAMETERS)]
+    page = visit(f"algorithm=novelty&seed=8&{QUICK}")
+    status = panel(page, "Novelty search")
+    status.get_by_text("Generation 0:").wait_for()
+    page.get_by_role("button", name="One generation").click()
+    status.get_by_text(f"Generation 1: best {generations[1]} cells").wait_for()
+    page.get_by_label("Generation", exact=True).fill("17")
+    page.keyboard.press("Enter")
+    status.get_by_text(f"Generation 17: best {generations[17]} cells").wait_for()
+    assert ("generation", "17") in address_of(page)
+    page.get_by_role("button", name="From the start").click()
+    status.get_by_text("Generation 0:").wait_for()
+
+
+def test_playing_can_be_paused_and_goes_on(visit):
+    page = visit("algorithm=standard&seed=1")
+    page.get_by_label("Speed").fill("4")
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_function("document.querySelector('.panel .status').textContent.match(/\\d+/)[0] > 5")
+    page.get_by_role("button", name="Pause").click()
+    page.wait_for_function("location.hash.includes('&generation=')")  # once the one in the making is there
+    page.get_by_role("button", name="Play").wait_for()
+    reached = int(dict(address_of(page))["generation"])
+    assert f"Generation {reached}:" in panel(page, "Standard EA").inner_text()
+    play_to_the_end(page, "Standard EA")
+    assert panel(page, "Standard EA").inner_text() == status_of(safe.evolve("maze1", "standard", 1))
+
+
+def test_charts_show_the_run_so_far(visit):
+    generations = list(safe.generations("maze1", "safe", 2, QUICK_PARAMETERS))
+    page = visit(f"algorithm=safe&seed=2&{QUICK}&generation=12")
+    panel(page, "SAFE").get_by_text("Generation 12").wait_for()
+    now = generations[12]
+    for title, value in (
+        ("Best distance", now.distance),
+        ("Mean novelty", now.novelty.mean()),
+        ("Points in the archive", len(now.archive[0])),
+    ):
+        chart = page.get_by_role("img", name=title)
+        assert chart.get_attribute("aria-label").endswith(f"SAFE: {float(f'{value:.3g}'):g} at 12")
+        assert chart.locator("polyline").get_attribute("points").count(",") == 13
+    square = page.get_by_role("img", name="Objective functions")
+    assert square.locator(".judge").count() == 20
+    assert square.locator(".winner").count() == len(set(now.winners.tolist()))
+
+
+@pytest.mark.parametrize("algorithm", ["safe", "novelty", "standard", "random"])
+def test_one_robot_is_explained(visit, algorithm):
+    generation = list(safe.generations("maze1", algorithm, 4, QUICK_PARAMETERS))[9]
+    page = visit(f"algorithm={algorithm}&seed=4&{QUICK}&generation=9")
+    page.locator(".panel .status").get_by_text("Generation 9").wait_for()
+    for individual in (0, 13):
+        page.get_by_label("Robot", exact=True).fill(str(individual))
+        page.keyboard.press("Enter")
+        row, column = generation.endpoints[individual]
+        page.get_by_text(f"Robot {individual} ended at row {row}, column {column}").wait_for()
+        text = page.locator(".inspector").inner_text()
+        if generation.novelty is not None:
+            total = int(re.search(r"add up to (\d+)", text)[1])
+            assert total / 15 == generation.novelty[individual]
+            distances = re.search(r"\(([\d +]+)\)", text)[1].split(" + ")
+            assert len(distances) == 15
+            assert sum(map(int, distances)) == total
+        if generation.fitness is None:
+            assert "Nobody judges it" in text
+            continue
+        winner = generation.winners[individual]
+        a, b = generation.objectives[winner]
+        assert f"by objective function {winner} with a = {float(f'{a:.3g}'):g} and b = {float(f'{b:.3g}'):g}" in text
+        fitness = generation.fitness[individual]
+        if fitness > 0:
+            share = a * generation.components[0, individual] / fitness
+            assert f"({100 * share:.1f} %) and" in text
+        else:
+            assert "%" not in text
+    page.get_by_role("button", name="Drive this robot").click()
+    assert driven(page) == generation.genomes[13].tolist()
+
+
+def test_a_click_selects_the_robot_that_ended_there(visit):
+    generation = next(iter(safe.generations("maze1", "novelty", 4, QUICK_PARAMETERS)))
+    page = visit(f"algorithm=novelty&seed=4&{QUICK}")
+    panel(page, "Novelty search").get_by_text("Generation 0").wait_for()
+    row, column = generation.endpoints[7].tolist()
+    canvas = page.get_by_role("region", name="Novelty search").locator("canvas")
+    box = canvas.bounding_box()
+    canvas.click(position={"x": (column + 0.5) * box["width"] / 100, "y": (row + 0.5) * box["height"] / 100})
+    page.get_by_text(f"ended at row {row}, column {column},").wait_for()
+
+
+def test_a_click_while_playing_selects_from_the_generation_that_stays(visit):
+    generations = {g.generation: g for g in safe.generations("maze2", "novelty", 4, QUICK_PARAMETERS)}
+    page = visit(f"maze=maze2&algorithm=novelty&seed=4&{QUICK}")
+    panel(page, "Novelty search").get_by_text("Generation 0").wait_for()
+    page.get_by_label("Speed").fill("4")
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_function("document.querySelector('.panel .status').textContent.match(/\\d+/)[0] > 3")
+    page.get_by_role("region", name="Novelty search").locator("canvas").click(position={"x": 200, "y": 200})
+    line = page.get_by_text(re.compile("^Robot .* ended at"))
+    line.wait_for()
+    generation = generations[int(page.get_by_label("Generation", exact=True).input_value())]
+    robot, row, column = map(int, re.findall(r"\d+", line.inner_text())[:3])
+    assert generation.endpoints[robot].tolist() == [row, column]
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "message"),
+    [
+        ("Run", "-1", "run must be an integer from 0 to 1000000; got -1"),
+        ("Run", "1.5", "run must be an integer from 0 to 1000000; got 1.5"),
+        ("Generation", "10000000000", "generation must be an integer from 0 to 1000000; got 10000000000"),
+        ("population", "7", "population must be an even number; got 7"),
+        ("mutation probability", "2", "mutation must be a number from 0 to 1; got 2"),
+    ],
+)
+def test_a_number_out_of_range_is_refused_and_what_was_there_comes_back(visit, field, value, message):
+    page = visit(f"algorithm=standard&seed=3/5&{QUICK}")
+    panel(page, "Standard EA").get_by_text("Generation 0").wait_for()
+    page.locator(".playground summary:visible").click()
+    number = page.get_by_role("spinbutton", name=field, exact=True)
+    before = number.input_value()
+    number.fill(value)
+    page.keyboard.press("Enter")
+    page.get_by_role("alert").get_by_text(message).wait_for()
+    assert number.input_value() == before
+
+
+def test_less_motion_if_the_reader_asks_for_it(visit):
+    page = visit(f"algorithm=standard&seed=1&{QUICK}", reduced_motion="reduce")
+    panel(page, "Standard EA").get_by_text("Generation 0").wait_for()
+    page.evaluate("""() => {
+        globalThis.seen = [];
+        const status = document.querySelector(".panel .status");
+        const look = () => seen.push(parseInt(status.textContent.match(/\\d+/)));
+        new MutationObserver(look).observe(status, { childList: true });
+    }""")
+    page.get_by_label("Speed").fill("3")  # ten generations a second, in one picture
+    page.get_by_role("button", name="Play").click()
+    panel(page, "Standard EA").get_by_text("No success").wait_for()
+    assert page.evaluate("seen") == [10, 20, 30]
+
+
+# Replay
+
+
+def test_ten_rows_of_the_tables_open_their_runs(visit, html):
+    """Two that fail, the first to succeed of each page, and others that succeed early; each is played to its end."""
+    pages = ["table2-success", "fixed-weights", "unevolved", "coefficients", "table3-evolved", "generations", "replay"]
+    runs, of_page = {}, {}
+    for name in pages:
+        text = (html / "notebooks" / f"{name}.html").read_text(encoding="utf-8")
+        for href in re.findall(r'href="\.\./book/playground\.html#(view=watch[^"]*seed=[^"]*)"', text):
+            href = href.replace("&amp;", "&")
+            if href not in runs:
+                runs[href], of_page[href] = run_at(href), name
+    soonest = sorted(runs, key=lambda href: runs[href].generation)
+    failures = [href for href in soonest if not runs[href].success][:2]
+    soonest_of_pages = {of_page[href]: href for href in reversed(soonest)}.values()
+    hrefs = list(dict.fromkeys([*failures, *soonest_of_pages, *soonest]))[:10]
+    assert (len(hrefs), len(failures)) == (10, 2)
+    assert len(soonest_of_pages) > 2
+    for href in hrefs:
+        page = visit(href)
+        page.locator(".panel .status").get_by_text("Generation 0").wait_for()
+        play_to_the_end(page, page.locator(".panel h2").inner_text())
+        assert page.locator(".panel .status").inner_text() == status_of(runs[href])
+        page.get_by_role("button", name="Drive the best").click()
+        assert driven(page) == list(runs[href].controller)
+        page.context.close()
+
+
+def test_other_runs_of_an_experiment_are_a_number_away(visit):
+    experiment = safe.Experiment("novelty", "maze1", parameters=QUICK_PARAMETERS)
+    page = visit(f"algorithm=novelty&seed=0x{experiment.digest}/0&{QUICK}")
+    panel(page, "Novelty search").get_by_text("Generation 0").wait_for()
+    page.get_by_role("spinbutton", name="Run").fill("6")
+    page.keyboard.press("Enter")
+    play_to_the_end(page, "Novelty search")
+    *_, last = experiment.replay(6)
+    assert panel(page, "Novelty search").inner_text() == status_of(last.run)

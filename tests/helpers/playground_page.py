@@ -1,0 +1,63 @@
+"""The playground's page as tests see it: the views, short runs, and what the page says."""
+
+import re
+
+import safe
+from tests.helpers.addresses import maze_of
+
+VIEWS = {"watch": "Watch", "drive": "Drive", "draw": "Draw", "runs": "Many runs"}
+QUICK = "population=20&objectives=20&generations=30"
+QUICK_PARAMETERS = safe.Parameters(population=20, objectives=20, generations=30)
+
+
+def panel(page, title):
+    """The line in which the page says how far an algorithm has come."""
+    return page.get_by_role("region", name=title).locator(".status")
+
+
+def play_to_the_end(page, *titles):
+    page.get_by_label("Speed").fill("6")
+    page.get_by_role("button", name="Play").click()
+    for title in titles:
+        panel(page, title).get_by_text(re.compile("uccess")).wait_for()
+    page.get_by_role("button", name="Play").wait_for()
+
+
+def status_of(run):
+    """What the page says of a run that is over."""
+    cells = "1 cell" if run.distance == 1 else f"{run.distance} cells"
+    outcome, fitness = "Success" if run.success else "No success", ""
+    if run.coefficients:
+        outcome += f" in generation {run.generation}" if run.success else f" in {run.generation + 1} generations"
+        a, b = (f"{float(f'{c:.3g}'):g}" for c in run.coefficients)
+        fitness = f" Its fitness: {a} · closeness + {b} · novelty."
+    return f"{outcome}: best {cells} from the goal, after {run.evaluations} robots.{fitness}"
+
+
+def address_of(page):
+    """The keys and values of the address, once the page has written its state there."""
+    page.evaluate("new Promise((done) => setTimeout(done, 250))")  # started after the page's own timer
+    fragment = page.evaluate("decodeURIComponent(location.hash.slice(1))")
+    return [tuple(part.split("=", 1)) for part in fragment.split("&")]
+
+
+def driven(page):
+    """The controller in the address of the page, which drives."""
+    return [float(weight) for weight in dict(address_of(page))["controller"].split(",")]
+
+
+def maze_at(page):
+    """The maze in the address of the page, which draws."""
+    return maze_of(dict(address_of(page))["maze"])
+
+
+def wait_for_view(page, view):
+    """Wait until a view is complete."""
+    page.get_by_role("tab", name=VIEWS[view], selected=True).wait_for()
+    shown = {
+        "watch": "Generation",
+        "drive": "After 300 steps",
+        "draw": "The goal can be reached",
+        "runs": "Runs so far",
+    }
+    page.get_by_role("tabpanel").get_by_text(shown[view]).locator("visible=true").first.wait_for()
