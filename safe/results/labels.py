@@ -6,12 +6,12 @@ kept by experiment, and become labels only here. If no two names coincide, names
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Iterable, Sequence
 from itertools import compress
 
 from safe.experiments.experiment import Experiment
+from safe.experiments.store import sha256
 from safe.maze import Maze
 
 Label = tuple[str, str]  # of the maze, of the algorithm
@@ -104,7 +104,7 @@ def _differences(traits: Sequence[Sequence[str]]) -> list[str]:
 
 def _with_digests(named: Sequence[tuple[str, object]]) -> list[str]:
     """Names, with a digest of the content behind each that stands for several contents."""
-    digests = [hashlib.sha256(json.dumps(content).encode()).hexdigest()[:6] for _, content in named]
+    digests = [sha256(json.dumps(content))[:6] for _, content in named]
     names = [name for name, _ in set(zip((name for name, _ in named), digests, strict=True))]
     return [
         f"{name} (digest {digest})" if names.count(name) > 1 else name
