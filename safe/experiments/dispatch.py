@@ -2,16 +2,21 @@
 
 Runs travel in batches of about half a second of work; the first batches are of one run, until it is known how long a
 run takes. An interruption or an error stops the runs, and what has finished by then is stored, too.
+
+Ctrl-C takes effect where the next batch is awaited, and nowhere else: a KeyboardInterrupt inside the methods of an
+executor can leave one of its locks closed, for which its threads, and then the program, would wait for ever.
 """
 
 from __future__ import annotations
 
 import os
+import signal
+import threading
 import time
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
-from contextlib import nullcontext, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -54,7 +59,8 @@ class Dispatcher:
         self.executor = executor if self.is_callers else ThreadPoolExecutor(_cores())
         self.waiting: deque[int] = deque()
         self.in_flight: set[Future] = set()
-        self.returned: SimpleQueue[Future] = SimpleQueue()
+        self.returned: SimpleQueue[Future | None] = SimpleQueue()  # None after Ctrl-C
+        self.is_interrupted = False
         self.stop = np.zeros(1, dtype=bool)  # shared with threads; other processes have a copy and finish their batch
         self.runs, self.seconds = 0, 0.0  # received, and how long they took
 
@@ -65,6 +71,7 @@ class Dispatcher:
         total, successes = self.experiment.runs, self.store.successes(self.entry, self.experiment.runs)
         label = f"{self.experiment.algorithm.name} on {self.experiment.maze.name}"
         with (
+            self._interrupted_between_batches(),
             nullcontext() if self.is_callers else self.executor,
             bar(label, progress, total=total, initial=total - len(missing), unit="run") as shown,
         ):
@@ -76,6 +83,8 @@ class Dispatcher:
                     shown.set_postfix(successes=successes, refresh=False)
                     shown.update(len(batch.runs))
                     self._send(MOST_IN_FLIGHT)
+                if self.is_interrupted:
+                    raise KeyboardInterrupt
             except BaseException as error:
                 self._stop()
                 with suppress(StoreError):  # if the store has failed, it may fail again
@@ -83,6 +92,26 @@ class Dispatcher:
                 with suppress(StoreError):
                     error.add_note(self._note())
                 raise
+
+    @contextmanager
+    def _interrupted_between_batches(self) -> Iterator[None]:
+        """Let the first Ctrl-C wait for `_next`; the second, of somebody impatient, is one as usual."""
+        usual = signal.default_int_handler
+        if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGINT) is not usual:
+            yield  # here Ctrl-C raises no KeyboardInterrupt
+            return
+
+        def notice(*signalled: object) -> None:
+            if self.is_interrupted:
+                usual(*signalled)
+            self.is_interrupted = True
+            self.returned.put(None)
+
+        signal.signal(signal.SIGINT, notice)
+        try:
+            yield
+        finally:
+            signal.signal(signal.SIGINT, usual)
 
     def _send(self, most: int) -> None:
         """Send batches until so many are in flight."""
@@ -109,11 +138,15 @@ class Dispatcher:
 
     def _next(self) -> Future:
         """The next future that is done."""
-        while not self.runs:
-            with suppress(Empty):
-                return self.returned.get(timeout=BATCH_SECONDS)
-            self._send(MOST_IN_FLIGHT)  # runs are long, so each is a batch, and there should be one for every core
-        return self.returned.get()
+        while True:
+            try:
+                future = self.returned.get(timeout=None if self.runs else BATCH_SECONDS)
+            except Empty:
+                self._send(MOST_IN_FLIGHT)  # runs are long, so each is a batch, and there should be one for every core
+            else:
+                if future is None:
+                    raise KeyboardInterrupt
+                return future
 
     def _keep(self, batch: Batch) -> None:
         self.store.add(self.entry, batch.origin, batch.runs)

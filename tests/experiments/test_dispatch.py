@@ -1,3 +1,4 @@
+import signal
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 
@@ -116,6 +117,55 @@ def test_an_interrupted_experiment_continues_where_it_stopped(tmp_path, uninterr
     rest = InThisThread()
     pd.testing.assert_frame_equal(results(EXPERIMENT, store, rest), uninterrupted)
     assert rest.runs == 7
+
+
+class Interrupted(InThisThread):
+    """Is interrupted, so many times, while the first batch is handed over."""
+
+    def __init__(self, times):
+        super().__init__()
+        self.times, self.handed_over = times, 0
+
+    def submit(self, *arguments):
+        while self.times > 0:
+            self.times -= 1
+            signal.raise_signal(signal.SIGINT)
+        self.handed_over += 1
+        return super().submit(*arguments)
+
+
+@pytest.mark.parametrize(("times", "handed_over"), [(1, 12), (2, 0)])
+def test_ctrl_c_waits_until_batches_are_handed_over_and_the_second_does_not(tmp_path, times, handed_over):
+    """In the middle of it, executors hold locks that nobody would open."""
+    executor = Interrupted(times)
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    with pytest.raises(KeyboardInterrupt) as interrupted:
+        run(EXPERIMENT, tmp_path / "s.sqlite", executor, progress=False)
+    assert executor.handed_over == handed_over
+    (note,) = interrupted.value.__notes__
+    assert note.startswith(f"{handed_over} of {EXPERIMENT.runs} runs are kept in")
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_ctrl_c_while_the_last_batch_is_stored_is_not_forgotten(tmp_path, monkeypatch):
+    add = Store.add
+    monkeypatch.setattr(Store, "add", lambda *arguments: (signal.raise_signal(signal.SIGINT), add(*arguments)))
+    with pytest.raises(KeyboardInterrupt) as interrupted:
+        run(replace(EXPERIMENT, runs=1), tmp_path / "s.sqlite", progress=False)
+    assert interrupted.value.__notes__[0].startswith("1 of 1 runs are kept in")
+
+
+def test_a_handler_of_the_callers_own_is_left_alone():
+    def own(*_):
+        raise InterruptedError
+
+    usual = signal.signal(signal.SIGINT, own)
+    try:
+        with pytest.raises(InterruptedError):
+            run(EXPERIMENT, executor=Interrupted(1), progress=False)
+        assert signal.getsignal(signal.SIGINT) is own
+    finally:
+        signal.signal(signal.SIGINT, usual)
 
 
 def test_a_store_that_fails_hides_no_interruption(tmp_path, monkeypatch):
