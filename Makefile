@@ -4,9 +4,13 @@ PYTHON ?= python3
 RUNS ?= 500
 export RUNS
 CASES ?= 100000
+unexport PYTHONDONTWRITEBYTECODE # many processes import the package: read what the first has compiled
 
 BIN := .venv/bin
-INSTALL := $(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check --constraint constraints.txt
+# $(WHAT) by uv, which is fast, or else by pip: uv may be missing, and does not know pip's settings of proxies and mirrors
+INSTALL = $(BIN)/uv pip install --quiet --compile-bytecode --python $(BIN)/python $(FIXED) $(WHAT) || \
+	$(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check $(FIXED) $(WHAT)
+FIXED := --constraint constraints.txt
 DENO := DENO_NO_UPDATE_CHECK=1 $(BIN)/deno
 BUILD := $(BIN)/jupyter-book build . --toc book/_toc.yml --quiet --warningiserror --keep-going --nitpick
 BOUNDS_CHECKED := NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.numba-boundscheck
@@ -58,7 +62,6 @@ picture: env ## draw the picture of the README
 	$(BIN)/python book/picture.py
 
 constraints: env ## choose the newest versions of all packages (constraints.txt)
-	$(BIN)/python -m pip install --quiet uv
 	$(BIN)/uv pip compile --universal --python-version 3.11 --all-extras --upgrade --no-annotate \
 		--custom-compile-command "make constraints" --output-file constraints.txt pyproject.toml
 
@@ -66,21 +69,25 @@ clean: ## remove what can be made again, except the environment and the results
 	rm -rf _build executed .numba-boundscheck .pytest_cache .hypothesis .ruff_cache
 	find safe tests book benchmarks -name __pycache__ -exec rm -rf {} +
 
-# The newest pip, since older ones take minutes to resolve what constraints.txt has fixed.
+# Without uv the newest pip, since older ones take minutes to resolve what constraints.txt has fixed.
 .venv/created:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; this is " + sys.version.split()[0] + ". Name another: make PYTHON=...")'
 	$(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --quiet --upgrade pip
+	$(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check --only-binary :all: uv || \
+		$(BIN)/python -m pip install --quiet --quiet --upgrade pip
 	touch $@
 
+.venv/installed: WHAT := --requirement requirements.txt
 .venv/installed: .venv/created pyproject.toml requirements.txt constraints.txt
-	$(INSTALL) --requirement requirements.txt
+	$(INSTALL)
 	touch $@
 
+.venv/installed-for-tests: WHAT := --editable .[book,test,bench]
 .venv/installed-for-tests: .venv/created pyproject.toml requirements.txt constraints.txt
-	$(INSTALL) --editable .[book,test,bench]
+	$(INSTALL)
 	touch .venv/installed $@
 
+.venv/installed-for-fuzzing: WHAT := --editable .[fuzz]
 .venv/installed-for-fuzzing: .venv/installed-for-tests
-	$(INSTALL) --editable .[fuzz]
+	$(INSTALL)
 	touch $@
