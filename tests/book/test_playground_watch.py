@@ -9,7 +9,7 @@ import pytest
 
 import safe
 from tests.helpers.addresses import run_at
-from tests.helpers.browser import needs_browser
+from tests.helpers.browser import PHONE, needs_browser
 from tests.helpers.playground_page import (
     QUICK,
     QUICK_PARAMETERS,
@@ -211,7 +211,7 @@ def test_ten_rows_of_the_tables_open_their_runs(visit, html):
     assert (len(hrefs), len(failures)) == (10, 2)
     assert len(soonest_of_pages) > 2
     for href in hrefs:
-        page = visit(href)
+        page = visit(href, viewport=PHONE)  # where less is drawn
         page.locator(".panel .status").get_by_text("Generation 0").wait_for()
         play_to_the_end(page, page.locator(".panel h2").inner_text())
         assert page.locator(".panel .status").inner_text() == status_of(runs[href])

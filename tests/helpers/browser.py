@@ -9,6 +9,7 @@ from contextlib import contextmanager
 import pytest
 
 BROWSERS = (
+    "chromium-headless-shell",  # the same engine without windows, which takes half the time
     "chromium",
     "chromium-browser",
     "google-chrome",
@@ -18,7 +19,9 @@ BROWSER = next((found for name in BROWSERS if (found := shutil.which(name))), No
 
 DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 800}
 
-needs_browser = pytest.mark.skipif(BROWSER is None, reason="no Chromium found: install Debian's chromium, or Chrome")
+needs_browser = pytest.mark.skipif(
+    BROWSER is None, reason="no Chromium found: install Debian's chromium-headless-shell, or Chrome"
+)
 
 
 class Quiet(http.server.SimpleHTTPRequestHandler):
