@@ -1,4 +1,4 @@
-"""Adjustments of the theme: buttons that lead to the repository, if there is one, and nothing from a CDN."""
+"""Adjustments of the theme: buttons that lead to the repository, if there is one, and no script without need."""
 
 from __future__ import annotations
 
@@ -34,8 +34,17 @@ def _remove_address(app: Sphinx, pagename: str, templatename: str, context: dict
         context["metatags"] = re.sub(r'<meta property="og:url"[^>]*>\s*', "", context["metatags"])
 
 
+def _add_filter(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
+    """Offer the templates `without_drawn_icons`.
+
+    The theme loads a font of icons, and a script of 1.5 MB that puts drawings in their place: the font is enough.
+    """
+    context["without_drawn_icons"] = lambda html: re.sub(r"<script[^>]*/fontawesome/[^>]*></script>", "", html)
+
+
 def setup(app: Sphinx) -> ExtensionMetadata:
     app.connect("config-inited", _set_buttons)
     app.connect("html-page-context", _remove_thebe, priority=900)
     app.connect("html-page-context", _remove_address, priority=900)
+    app.connect("html-page-context", _add_filter)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}
