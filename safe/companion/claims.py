@@ -16,7 +16,7 @@ from scipy import stats
 from safe.algorithms import COEFFICIENTS
 from safe.companion.paper import reported
 from safe.companion.verdicts import UNTESTABLE
-from safe.experiments.experiment import WEIGHT_COLUMNS, Experiment, controller_of
+from safe.experiments.experiment import WEIGHT_COLUMNS, Experiment
 from safe.maze import ways_to_goal
 from safe.results import formats
 from safe.results.statistics import compare_rates, success_interval
@@ -195,7 +195,7 @@ def _deceptions(results: Results) -> Iterator[Claim]:
     """The standard algorithm's best robots end near the goal, with nearly all of the way still before them."""
     for experiment, runs in _of_algorithm("standard", results):
         maze = experiment.maze
-        ends = endpoints(maze, [controller_of(row) for _, row in runs.iterrows()], experiment.parameters.steps)
+        ends = endpoints(maze, runs[WEIGHT_COLUMNS].to_numpy(float), experiment.parameters.steps)
         ways = ways_to_goal(maze)
         is_nearer = maze.distance(ends) < maze.distance(maze.start) / 2
         is_before_its_way = ways[tuple(ends.T)] > 0.9 * ways[maze.start]

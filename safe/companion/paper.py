@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from functools import cache
 from pathlib import Path
 
 import pandas as pd
@@ -42,11 +43,16 @@ def reported(experiment: Experiment) -> pd.DataFrame:
     >>> reported(Experiment("safe", "maze1", parameters=Parameters(k=3))).empty
     True
     """
-    maze, algorithm = experiment.maze, experiment.algorithm
+    is_reported = is_the_papers(experiment)
+    return _reported(experiment.maze.name if is_reported else "", experiment.algorithm.name).copy()
+
+
+@cache  # a ledger asks often
+def _reported(maze: str, algorithm: str) -> pd.DataFrame:
     numbers = published()
-    numbers = numbers[(numbers.maze == maze.name) & is_the_papers(experiment)]
-    counted = numbers[numbers["item"] == algorithm.name].set_index("quantity")
-    evolved = numbers[~numbers["item"].isin(ALGORITHMS) & (algorithm.name == "safe")].set_index("item")
+    numbers = numbers[numbers.maze == maze]
+    counted = numbers[numbers["item"] == algorithm].set_index("quantity")
+    evolved = numbers[~numbers["item"].isin(ALGORITHMS) & (algorithm == "safe")].set_index("item")
     return pd.concat([counted, evolved])[["mean", "sd", "n"]]
 
 
