@@ -139,12 +139,16 @@ def animate(maze: Maze, story: Sequence[Generation], frames: int = 30) -> str:
     The page loads nothing, and plays without a kernel.
     """
     chosen = np.unique(np.linspace(0, len(story) - 1, frames).round().astype(int))
-    images, shown = [], None
+    images, shown, places = [], None, []
     for index in chosen:
         figure, _ = plot_generation(maze, story[index])
-        if shown is None:  # every frame is cut to what the first one fills, so that all have one size
+        if shown is None:  # the first frame's layout is that of all, and all are cut to what it fills
             figure.draw_without_rendering()
             shown = figure.get_tightbbox().padded(0.05)
+            places = [axes.get_position() for axes in figure.axes]
+        figure.set_layout_engine("none")
+        for axes, place in zip(figure.axes, places, strict=True):
+            axes.set_position(place)
         with io.BytesIO() as file:
             figure.savefig(file, format="png", dpi=75, bbox_inches=shown)
             images.append(base64.b64encode(file.getvalue()).decode())
