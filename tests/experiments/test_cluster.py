@@ -13,7 +13,7 @@ from safe import Experiment, Parameters, run
 from safe.companion.notebook import executor_at
 from safe.experiments.store import Store
 
-EXPERIMENT = Experiment("safe", "maze2", runs=120, seed=9, parameters=Parameters(generations=150))
+EXPERIMENT = Experiment("safe", "maze2", runs=120, seed=9, parameters=Parameters(generations=50))
 
 
 @pytest.fixture(scope="module")

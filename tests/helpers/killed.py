@@ -1,4 +1,4 @@
-"""What the tests of interruption run in other processes: an experiment that many kills do not outlast.
+"""What the tests of interruption run in other processes.
 
 The server that these processes are forked from imports it once, so that each starts with everything compiled.
 """
@@ -6,7 +6,7 @@ The server that these processes are forked from imports it once, so that each st
 import safe
 from safe.evolution import compile_kernels
 
-EXPERIMENT = safe.Experiment("safe", "maze2", runs=1500, seed=5, parameters=safe.Parameters(generations=20))
+EXPERIMENT = safe.Experiment("safe", "maze2", runs=600, seed=5, parameters=safe.Parameters(generations=4))
 
 compile_kernels()
 
