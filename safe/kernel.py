@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import glob
+import hashlib
 import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import numba
 import numba.core.event
 import numpy as np
+from numba.core.caching import CompileResultCacheImpl, FunctionCache
 from tqdm import tqdm
 
 _PACKAGE = Path(__file__).parent
@@ -25,22 +28,60 @@ def kernel(function: Callable) -> Callable:
     """
     if numba.config.DISABLE_JIT:
         return function
-    compiled = numba.njit(nogil=True, cache=True, error_model="numpy")(function)
-    _forget_stale_cache(compiled)
+    compiled = numba.njit(nogil=True, error_model="numpy")(function)
+    try:
+        compiled._cache = _KernelCache(function)  # as numba's own `cache=True` does with a cache of its own
+    except RuntimeError:  # no folder for it is writable
+        _KernelCache.fault = "no folder is writable for its cache"
     return compiled
 
 
-def _forget_stale_cache(compiled: Callable) -> None:
-    """Remove a kernel's files on disk if any source file of the science is newer.
+def sources() -> str:
+    """The SHA-256 of all source files of the science, in hexadecimal: kernels are made of nothing else."""
+    digest = hashlib.sha256()
+    for file in sorted(_PACKAGE.glob("*.py")):
+        digest.update(f"{file.name}\0".encode() + file.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+class _SourcesInTheName(CompileResultCacheImpl):
+    """Names the files of a cache after all the sources of kernels.
 
     numba looks only at the file of the function itself, so without this an edit to robot.py would
     leave evolution.py running the old robot (https://github.com/numba/numba/issues/1833).
     """
-    newest_source = max(source.stat().st_mtime for source in _PACKAGE.glob("*.py"))
-    name = f"{Path(compiled.py_func.__code__.co_filename).stem}.{compiled.py_func.__qualname__}-"
-    for index_file in Path(compiled.stats.cache_path).glob(name + "*.nbi"):
-        if index_file.stat().st_mtime < newest_source:
-            index_file.unlink(missing_ok=True)
+
+    def get_filename_base(self, fullname: str, abiflags: str) -> str:
+        return f"{super().get_filename_base(fullname, abiflags)}-{sources()[:16]}"
+
+
+class _KernelCache(FunctionCache):
+    """Compiled functions on disk: a convenience, so whatever is wrong with it, they are compiled anew."""
+
+    _impl_class = _SourcesInTheName
+    fault: str | None = None  # why what is compiled is not kept
+
+    def load_overload(self, *arguments: object) -> object:
+        try:
+            return super().load_overload(*arguments)
+        except Exception:  # a damaged file can raise anything
+            with suppress(OSError):
+                self.flush()
+            return None
+
+    def save_overload(self, *arguments: object) -> None:
+        try:
+            super().save_overload(*arguments)
+            self._remove_others()
+        except OSError as error:
+            _KernelCache.fault = f"its cache cannot be written ({error.strerror})"
+
+    def _remove_others(self) -> None:
+        """Remove the files of this function that were made of other sources."""
+        name, _, own = self._impl.filename_base.rpartition("-")
+        for file in Path(self.cache_path).glob(f"{glob.escape(name)}-*.nb[ci]"):
+            if not file.name.startswith(f"{name}-{own}."):
+                file.unlink(missing_ok=True)
 
 
 @kernel
@@ -67,7 +108,7 @@ class _CompilationListener(numba.core.event.Listener):
     def on_start(self, event: numba.core.event.Event) -> None:
         if self.bar is None:
             self.bar = tqdm(
-                desc="compiling, once on this machine",
+                desc=self._description(),
                 bar_format="{desc}: {n_fmt} functions [{elapsed}]",
                 disable=not is_watched(),
                 mininterval=0.5,
@@ -75,7 +116,12 @@ class _CompilationListener(numba.core.event.Listener):
 
     def on_end(self, event: numba.core.event.Event) -> None:
         if self.bar is not None:  # it is None if another thread began to compile before this context
+            self.bar.set_description_str(self._description(), refresh=False)
             self.bar.update()
+
+    def _description(self) -> str:
+        fault = _KernelCache.fault
+        return f"compiling, in every process anew, since {fault}" if fault else "compiling, once on this machine"
 
 
 def is_watched() -> bool:

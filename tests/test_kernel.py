@@ -5,10 +5,10 @@ import importlib
 import inspect
 import os
 import pkgutil
+import shutil
 import subprocess
 import sys
 import types
-from pathlib import Path
 
 import numba
 import pytest
@@ -70,31 +70,58 @@ def test_without_compiling_a_run_is_the_same():
     assert outputs[0] == outputs[1] != ""
 
 
-def test_an_edited_kernel_is_compiled_again_in_every_file_that_calls_it(tmp_path):
+@pytest.fixture
+def tiny(tmp_path):
+    """A package of two kernels, one of which calls the other, and a function that calls it in a new process."""
     package = tmp_path / "tiny"
     package.mkdir()
-    source = Path(safe.__file__).with_name("kernel.py").read_text()
-    (package / "kernel.py").write_text(source)
+    shutil.copy(safe.kernel.__file__, package)
     (package / "__init__.py").write_text("")
     (package / "upper.py").write_text(
-        "from tiny.kernel import kernel\nfrom tiny.lower import low\n\n@kernel\ndef up():\n    return 10 * low()\n"
+        "from tiny.kernel import kernel, while_compiling\nfrom tiny.lower import low\n\n"
+        "@kernel\ndef up():\n    return 10 * low()\n"
     )
-    lower = package / "lower.py"
 
-    def up(returning, time):
-        lower.write_text(f"from tiny.kernel import kernel\n\n@kernel\ndef low():\n    return {returning}\n")
-        os.utime(lower, (time, time))
-        code = "from tiny.upper import up; print(up())"
-        environment = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
-        command = [sys.executable, "-c", code]
-        return subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True).stdout
+    def up(returning, **environment):
+        """What `up` returns if `low` returns this; all files have one time, whatever they hold."""
+        source = f"from tiny.kernel import kernel\n\n@kernel\ndef low():\n    return {returning}\n"
+        (package / "lower.py").write_text(source)
+        for file in package.glob("*.py"):
+            os.utime(file, (1_000_000_000, 1_000_000_000))
+        code = "from tiny.upper import up, while_compiling\nwith while_compiling(): print(up())"
+        kept = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
+        command = [sys.executable, "-B", "-c", code]
+        done = subprocess.run(command, cwd=tmp_path, env=kept | environment, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        return int(done.stdout)
 
-    past, future = 1_000_000_000, 4_000_000_000
-    for file in package.iterdir():
-        os.utime(file, (past, past))
-    assert up(1, past) == "10\n"
-    index = next((package / "__pycache__").glob("upper.up-*.nbi"))
-    compiled = index.stat().st_mtime_ns
-    assert up(1, past) == "10\n"
-    assert index.stat().st_mtime_ns == compiled  # kept as long as nothing changes
-    assert up(2, future) == "20\n"
+    return up
+
+
+def test_an_edited_kernel_is_compiled_again_in_every_file_that_calls_it(tiny, tmp_path):
+    cache = tmp_path / "tiny" / "__pycache__"
+
+    def made():
+        return {file.name: file.stat().st_mtime_ns for file in cache.iterdir()}
+
+    assert tiny(1) == 10
+    files = made()
+    assert tiny(1) == 10
+    assert made() == files  # kept as long as nothing changes
+    shutil.copytree(cache, tmp_path / "before")
+    assert tiny(2) == 20
+    assert len(made()) == len(files)  # what is of no use any more is removed
+    shutil.copytree(tmp_path / "before", cache, dirs_exist_ok=True)
+    assert tiny(2) == 20
+
+
+def test_a_damaged_cache_is_made_again(tiny, tmp_path):
+    assert tiny(1) == 10
+    for file in (tmp_path / "tiny" / "__pycache__").iterdir():
+        file.write_bytes(b"" if file.suffix == ".nbi" else b"\0" * 100)
+    assert tiny(1) == 10
+
+
+def test_without_a_place_for_a_cache_kernels_are_compiled(tiny, tmp_path):
+    (tmp_path / "tiny" / "__pycache__").write_text("a file where numba would make a folder")
+    assert tiny(1, HOME="/dev/null", XDG_CACHE_HOME="/dev/null", LOCALAPPDATA="/dev/null") == 10
