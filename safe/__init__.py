@@ -40,8 +40,10 @@ __all__ = [
 
 def __getattr__(name: str) -> object:
     if name == "Playground":  # imported on first use, since only it needs anywidget
-        from safe.playground.widget import Playground
-
+        try:
+            from safe.playground.widget import Playground
+        except ImportError as error:  # tools that look at all attributes expect this
+            raise AttributeError(str(error)) from error
         return Playground
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 

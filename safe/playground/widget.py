@@ -94,8 +94,8 @@ class Playground(anywidget.AnyWidget):
 
     Raises
     ------
-    ImportError
-        If anywidget is not installed.
+    AttributeError
+        From `safe.Playground` itself, if anywidget is not installed.
     ValueError
         If a maze, controller, seed or result is not valid.
 

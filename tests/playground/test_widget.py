@@ -248,12 +248,15 @@ def test_where_there_is_no_kernel_a_picture_stands_for_it(playground):
 WITHOUT_ANYWIDGET = """
 import sys
 sys.modules["anywidget"] = None  # as if it were not installed
-import safe
+import inspect, pydoc, safe
 from safe import *
 try:
     safe.Playground
-except ImportError as error:
+except AttributeError as error:
     print(error)
+assert not hasattr(safe, "Playground")
+assert "Playground" not in dict(inspect.getmembers(safe))
+assert "evolve" in pydoc.render_doc(safe)
 """
 
 
