@@ -4,17 +4,24 @@
     python book/execute.py table2-success -p runs 100       one notebook, with your own parameters
 
 A copy is written under another name and renamed when it is complete, so an interrupted execution leaves none behind.
+Notebooks run in this program's interpreter, and none of the user's own settings of Jupyter, IPython and matplotlib
+reach them.
 """
 
 from __future__ import annotations
 
 import argparse
 import contextlib
+import json
 import os
+import platform
 import sys
+import tempfile
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
+import matplotlib
 import nbformat
 import papermill
 
@@ -23,6 +30,8 @@ from executed import EXECUTED, NOTEBOOKS, ROOT, STAMP, notebooks, requested_para
 
 STORE = "results.sqlite"  # the notebooks' default
 SAMPLE = 5  # runs in it that are repeated at the end
+LEFT_OUT = ("MPLBACKEND", "PYTHONPATH", "PYTHONSTARTUP", "PYTHONWARNINGS")  # of the user's environment
+MUST_SHOW = {"table": "text/csv", "mystnb": "image/svg+xml"}  # by a key in the metadata of a cell, which is a figure's
 
 
 def execute(notebook: Path, parameters: dict[str, object]) -> None:
@@ -45,6 +54,7 @@ def execute(notebook: Path, parameters: dict[str, object]) -> None:
         extra_arguments=["--log-level=CRITICAL"],  # of the kernel: it warns of TCP, and of being shut down
     )
     executed = nbformat.read(unfinished, as_version=4)
+    check_outputs(executed)
     for cell in executed.cells:
         if cell.cell_type == "code":
             cell.outputs = [output for output in cell.outputs if not is_progress_bar(output)]
@@ -56,6 +66,39 @@ def execute(notebook: Path, parameters: dict[str, object]) -> None:
 def unfinished_copy(notebook: Path) -> Path:
     """The file that holds a notebook's copy until its execution is complete."""
     return EXECUTED / f".{notebook.name}"
+
+
+@contextlib.contextmanager
+def isolated() -> Iterator[None]:
+    """Inside this context, kernels start in this interpreter, without the user's settings."""
+    before = dict(os.environ)
+    with tempfile.TemporaryDirectory() as folder:
+        kernel = Path(folder, "kernels", "python3", "kernel.json")
+        kernel.parent.mkdir(parents=True)
+        command = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]
+        kernel.write_text(json.dumps({"argv": command, "display_name": "Python 3", "language": "python"}))
+        for name in LEFT_OUT:
+            os.environ.pop(name, None)
+        os.environ |= {
+            "JUPYTER_PATH": folder,  # where Jupyter looks for kernels first
+            "JUPYTER_CONFIG_DIR": folder,
+            "IPYTHONDIR": folder,
+            "MATPLOTLIBRC": str(Path(matplotlib.get_data_path(), "matplotlibrc")),
+        }
+        try:
+            yield
+        finally:
+            os.environ.clear()
+            os.environ.update(before)
+
+
+def check_outputs(executed: nbformat.NotebookNode) -> None:
+    """Raise a ValueError if a cell that stands for a table or a figure shows none, for whatever reason."""
+    for cell in executed.cells:
+        for key in MUST_SHOW.keys() & cell.metadata.keys():
+            if not any(MUST_SHOW[key] in output.get("data", {}) for output in cell.outputs):
+                what = "table" if key == "table" else "figure"
+                raise ValueError(f"cell {cell.id} must show a {what}; got none")
 
 
 def is_progress_bar(output: nbformat.NotebookNode) -> bool:
@@ -91,9 +134,23 @@ def main() -> None:
         parameters = requested_parameters() | given
     except ValueError as error:
         parser.error(str(error))
+    with isolated():
+        _execute_all(chosen, parameters, bool(given))
+    store = ROOT / given.get("store", STORE)
+    if not options.names and store.exists():
+        try:
+            same = safe.verify(store, SAMPLE)
+        except safe.StoreError as error:
+            sys.exit(f"the stored results cannot be trusted: {error}")
+        print(f"{len(same)} stored runs, drawn at random, were repeated and gave the same results", flush=True)
+
+
+def _execute_all(chosen: list[Path], parameters: dict[str, object], always: bool) -> None:
+    """Execute these notebooks, those that are up to date only if they are `always` executed."""
+    print(f"Python {platform.python_version()} in {sys.prefix}", flush=True)
     for number, notebook in enumerate(chosen, start=1):
         label = f"[{number}/{len(chosen)}] {notebook.stem}"
-        if not given and what_is_wrong(notebook, parameters) is None:
+        if not always and what_is_wrong(notebook, parameters) is None:
             print(f"{label}: up to date", flush=True)
             continue
         print(f"{label}: executing", flush=True)
@@ -102,14 +159,9 @@ def main() -> None:
             execute(notebook, parameters)
         except papermill.PapermillExecutionError as error:
             sys.exit(f"{label}: {error.ename}: {error.evalue} (in full in {unfinished_copy(notebook)})")
+        except ValueError as error:
+            sys.exit(f"{label}: {error} (in full in {unfinished_copy(notebook)})")
         print(f"{label}: {time.perf_counter() - started:.1f} s", flush=True)
-    store = ROOT / given.get("store", STORE)
-    if not options.names and store.exists():
-        try:
-            same = safe.verify(store, SAMPLE)
-        except safe.StoreError as error:
-            sys.exit(f"the stored results cannot be trusted: {error}")
-        print(f"{len(same)} stored runs, drawn at random, were repeated and gave the same results", flush=True)
 
 
 if __name__ == "__main__":

@@ -1,9 +1,10 @@
 """Executed copies of the notebooks: how the book recognises stale ones, and reads the others.
 
 Notebooks are committed without outputs. `book/execute.py` executes each into the folder `executed`, and stamps the
-copy's metadata with the digests of the notebook, of the package and of the measurements, and with the parameters. As a
-Sphinx extension, this module substitutes the executed copy when Sphinx reads a notebook, so that links to the source
-still lead to the clean notebook. It stops the build if a copy is missing or stale.
+copy's metadata with the digests of the notebook, of the package and of the measurements, with the parameters, and with
+the versions of Python and of the packages that the results depend on. As a Sphinx extension, this module substitutes
+the executed copy when Sphinx reads a notebook, so that links to the source still lead to the clean notebook. It stops
+the build if a copy is missing or stale.
 """
 
 from __future__ import annotations
@@ -11,6 +12,8 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import platform
+from importlib import metadata
 from pathlib import Path
 
 from sphinx.application import Sphinx
@@ -21,6 +24,8 @@ ROOT = Path(__file__).parent.parent
 NOTEBOOKS = ROOT / "notebooks"
 EXECUTED = ROOT / "executed"
 MEASUREMENTS = ROOT / "benchmarks" / "results.json"
+DEPENDENCIES = ("numpy", "numba", "scipy", "statsmodels", "pandas", "matplotlib")
+SUFFIXES = (".py", ".csv", ".maze", ".mplstyle", ".html")  # of the package's files, unlike those of editors and systems
 STAMP = "executed_from"  # key in the metadata of an executed copy
 LEFT_OUT = (
     "text/csv",  # for book/tables.py alone
@@ -45,12 +50,14 @@ def stamp(notebook: Path, parameters: dict[str, object]) -> dict[str, object]:
     """All that the execution of a notebook with these parameters depends on, so not the code that browsers run."""
     package = hashlib.sha256()
     for file in sorted((ROOT / "safe").rglob("*")):
-        if file.is_file() and not {"__pycache__", "javascript"} & set(file.relative_to(ROOT).parts):
+        is_hidden = file.name.startswith(".")
+        if file.suffix in SUFFIXES and not is_hidden and "javascript" not in file.relative_to(ROOT).parts:
             package.update(f"{file.relative_to(ROOT)}\0".encode() + file.read_bytes())
     return {
         "notebook": hashlib.sha256(notebook.read_bytes()).hexdigest(),
         "package": package.hexdigest(),
         "measurements": hashlib.sha256(MEASUREMENTS.read_bytes()).hexdigest(),
+        "packages": {"python": platform.python_version()} | {name: metadata.version(name) for name in DEPENDENCIES},
         "parameters": parameters,
     }
 

@@ -5,8 +5,10 @@ import importlib
 import json
 import re
 import shutil
+import sys
 from html.parser import HTMLParser
 
+import nbformat
 import pytest
 
 from tests.helpers.checkout import ROOT, RUNS, build, execute, locked, output_of
@@ -247,6 +249,79 @@ def test_stale_copies_are_recognised(checkout, book_of, change):
             file.write_bytes(content)
     expected = "was not executed" if change == "missing" else f"was executed before the {change} changed"
     assert fault == expected
+
+
+@pytest.mark.usefixtures("alone_in_checkout")
+def test_a_copy_made_with_other_packages_is_stale(checkout, book_of, monkeypatch):
+    executed = book_of(checkout, "executed")
+    monkeypatch.setattr(executed.metadata, "version", lambda name: "99")
+    fault = executed.what_is_wrong(checkout / "notebooks" / "table2-success.ipynb", {"runs": int(RUNS)})
+    assert fault == "was executed before the packages changed"
+
+
+@pytest.mark.usefixtures("alone_in_checkout")
+def test_files_of_editors_and_systems_make_nothing_stale(checkout, book_of):
+    strangers = [
+        checkout / "safe" / name for name in (".DS_Store", "robot.py~", "#robot.py#", ".robot.py.swp", ".x.py")
+    ]
+    for file in strangers:
+        file.write_text("not of this package")
+    try:
+        fault = book_of(checkout, "executed").what_is_wrong(
+            checkout / "notebooks" / "table2-success.ipynb", {"runs": int(RUNS)}
+        )
+    finally:
+        for file in strangers:
+            file.unlink()
+    assert fault is None
+
+
+def svg_of(copy):
+    """The figures of an executed notebook, without the time at which they were drawn."""
+    shown = [output.get("data", {}) for cell in copy["cells"] for output in cell.get("outputs", [])]
+    svg = ["".join(data["image/svg+xml"]) for data in shown if "image/svg+xml" in data]
+    return [re.sub(r"<dc:date>.*?</dc:date>", "", text) for text in svg]
+
+
+@pytest.mark.usefixtures("alone_in_checkout")
+def test_the_users_settings_do_not_reach_a_notebook(checkout, tmp_path, monkeypatch):
+    kernel, startup, style = (
+        tmp_path / name for name in ("kernels/python3/kernel.json", "profile_default/startup/a.py", "matplotlibrc")
+    )
+    for file in (kernel, startup):
+        file.parent.mkdir(parents=True)
+    kernel.write_text('{"argv": ["false"], "display_name": "another", "language": "python"}')
+    startup.write_text("raise SystemExit")
+    style.write_text("font.size: 40")
+    for name, value in {
+        "MPLBACKEND": "Agg",
+        "MATPLOTLIBRC": style,
+        "IPYTHONDIR": tmp_path,
+        "JUPYTER_PATH": tmp_path,
+        "PYTHONWARNINGS": "error",
+    }.items():
+        monkeypatch.setenv(name, str(value))
+    copy = checkout / "executed" / "figure1-mazes.ipynb"
+    before = copy.read_text()
+    copy.unlink()
+    try:
+        made = execute(checkout, "figure1-mazes")
+        assert made.returncode == 0, output_of(made)
+        assert made.stdout.startswith(f"Python {sys.version.split()[0]} in {sys.prefix}\n")
+        assert svg_of(json.loads(copy.read_text())) == svg_of(json.loads(before)) != []
+    finally:
+        copy.write_text(before)
+
+
+@pytest.mark.parametrize(("notebook", "what"), [("figure1-mazes", "figure"), ("table2-success", "table")])
+def test_a_cell_that_shows_nothing_is_a_failure(checkout, book_of, notebook, what):
+    check_outputs = book_of(checkout, "execute").check_outputs
+    copy = nbformat.read(checkout / "executed" / f"{notebook}.ipynb", as_version=4)
+    check_outputs(copy)
+    for cell in copy.cells:
+        cell.outputs = []
+    with pytest.raises(ValueError, match=f"cell .+ must show a {what}; got none"):
+        check_outputs(copy)
 
 
 @pytest.mark.usefixtures("alone_in_checkout")
