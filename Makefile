@@ -8,11 +8,13 @@ unexport PYTHONDONTWRITEBYTECODE # many processes import the package: read what 
 
 BIN := .venv/bin
 # $(WHAT) by uv, which is fast, or else by pip: uv may be missing, and does not know pip's settings of proxies and mirrors
-INSTALL = $(BIN)/uv pip install --quiet --compile-bytecode --python $(BIN)/python $(FIXED) $(WHAT) || \
+INSTALL = $(BIN)/uv pip install --quiet --python $(BIN)/python $(FIXED) $(WHAT) || \
 	$(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check $(FIXED) $(WHAT)
 FIXED := --constraint constraints.txt
 DENO := DENO_NO_UPDATE_CHECK=1 $(BIN)/deno
 BUILD := $(BIN)/jupyter-book build . --toc book/_toc.yml --quiet --warningiserror --keep-going --nitpick
+# before the tests, or else each of their processes would; the kernels that check bounds meanwhile on another core
+COMPILE := $(BIN)/python -c 'from safe.evolution import compile_kernels; compile_kernels()'
 BOUNDS_CHECKED := NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.numba-boundscheck
 
 .PHONY: help env execute book pdf test bench fuzz format picture constraints clean
@@ -39,7 +41,7 @@ test: .venv/installed-for-tests ## everything from nothing: environment, the tes
 	$(BIN)/ruff check .
 	$(DENO) fmt --check
 	$(DENO) lint
-	$(BIN)/python -c 'from safe.evolution import compile_kernels; compile_kernels()' # once, not in every process
+	$(COMPILE) & $(BOUNDS_CHECKED) $(COMPILE) && wait
 	$(BIN)/pytest --numprocesses auto --dist loadfile --no-loadscope-reorder
 
 fuzz: .venv/installed-for-fuzzing ## CASES malformed inputs (100000), with bounds checking
