@@ -1,6 +1,7 @@
 """Rules for every compiled function; and an edited function never runs in its old form."""
 
 import dis
+import errno
 import importlib
 import inspect
 import os
@@ -125,3 +126,13 @@ def test_a_damaged_cache_is_made_again(tiny, tmp_path):
 def test_without_a_place_for_a_cache_kernels_are_compiled(tiny, tmp_path):
     (tmp_path / "tiny" / "__pycache__").write_text("a file where numba would make a folder")
     assert tiny(1, HOME="/dev/null", XDG_CACHE_HOME="/dev/null", LOCALAPPDATA="/dev/null") == 10
+
+
+def test_a_full_disk_is_no_reason_not_to_run(monkeypatch):
+    def save(*_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(numba.core.caching.IndexDataCacheFile, "save", save)
+    monkeypatch.setattr(safe.kernel._KernelCache, "fault", None)
+    assert safe.kernel.kernel(lambda: 3)() == 3
+    assert safe.kernel._KernelCache.fault == "its cache cannot be written (No space left on device)"
