@@ -64,6 +64,7 @@ picture: env ## draw the picture of the README
 	$(BIN)/python book/picture.py
 
 constraints: env ## choose the newest versions of all packages (constraints.txt)
+	$(BIN)/python -m pip install --quiet uv
 	$(BIN)/uv pip compile --universal --python-version 3.11 --all-extras --upgrade --no-annotate \
 		--custom-compile-command "make constraints" --output-file constraints.txt pyproject.toml
 

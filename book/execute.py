@@ -30,8 +30,11 @@ from executed import EXECUTED, NOTEBOOKS, ROOT, STAMP, notebooks, requested_para
 
 STORE = "results.sqlite"  # the notebooks' default
 SAMPLE = 5  # runs in it that are repeated at the end
-LEFT_OUT = ("MPLBACKEND", "PYTHONPATH", "PYTHONSTARTUP", "PYTHONWARNINGS")  # of the user's environment
-MUST_SHOW = {"table": "text/csv", "mystnb": "image/svg+xml"}  # by a key in the metadata of a cell, which is a figure's
+SETTINGS = ("MPLBACKEND", "PYTHONPATH", "PYTHONSTARTUP", "PYTHONWARNINGS")  # of the user, in the environment
+MUST_SHOW = {  # by a key in the metadata of a cell: what it stands for, and the output that shows it
+    "table": ("table", "text/csv"),
+    "mystnb": ("figure", "image/svg+xml"),
+}
 
 
 def execute(notebook: Path, parameters: dict[str, object]) -> None:
@@ -77,7 +80,7 @@ def isolated() -> Iterator[None]:
         kernel.parent.mkdir(parents=True)
         command = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]
         kernel.write_text(json.dumps({"argv": command, "display_name": "Python 3", "language": "python"}))
-        for name in LEFT_OUT:
+        for name in SETTINGS:
             os.environ.pop(name, None)
         os.environ |= {
             "JUPYTER_PATH": folder,  # where Jupyter looks for kernels first
@@ -96,8 +99,8 @@ def check_outputs(executed: nbformat.NotebookNode) -> None:
     """Raise a ValueError if a cell that stands for a table or a figure shows none, for whatever reason."""
     for cell in executed.cells:
         for key in MUST_SHOW.keys() & cell.metadata.keys():
-            if not any(MUST_SHOW[key] in output.get("data", {}) for output in cell.outputs):
-                what = "table" if key == "table" else "figure"
+            what, kind = MUST_SHOW[key]
+            if not any(kind in output.get("data", {}) for output in cell.outputs):
                 raise ValueError(f"cell {cell.id} must show a {what}; got none")
 
 

@@ -42,8 +42,8 @@ def __getattr__(name: str) -> object:
     if name == "Playground":  # imported on first use, since only it needs anywidget
         try:
             from safe.playground.widget import Playground
-        except ImportError as error:  # tools that look at all attributes expect this
-            raise AttributeError(str(error)) from error
+        except ImportError as error:  # tools that look at all attributes expect an AttributeError
+            raise AttributeError(str(error), name=name, obj=None) from error  # without obj, no other name is suggested
         return Playground
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 

@@ -37,7 +37,10 @@ def kernel(function: Callable) -> Callable:
 
 
 def sources() -> str:
-    """The SHA-256 of all source files of the science, in hexadecimal: kernels are made of nothing else."""
+    """The SHA-256 of all source files of the science, in hexadecimal: kernels are made of nothing else.
+
+    It is read anew for each kernel, since an edited module may be reloaded in a session.
+    """
     digest = hashlib.sha256()
     for file in sorted(_PACKAGE.glob("*.py")):
         digest.update(f"{file.name}\0".encode() + file.read_bytes() + b"\0")
@@ -78,9 +81,9 @@ class _KernelCache(FunctionCache):
 
     def _remove_others(self) -> None:
         """Remove the files of this function that were made of other sources."""
-        name, _, own = self._impl.filename_base.rpartition("-")
-        for file in Path(self.cache_path).glob(f"{glob.escape(name)}-*.nb[ci]"):
-            if not file.name.startswith(f"{name}-{own}."):
+        function, *_, own = self._impl.filename_base.split("-")  # between them the line and the version of Python
+        for file in Path(self.cache_path).glob(f"{glob.escape(function)}-*.nb[ci]"):
+            if f"-{own}." not in file.name:
                 file.unlink(missing_ok=True)
 
 

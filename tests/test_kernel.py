@@ -85,7 +85,8 @@ def tiny(tmp_path):
 
     def up(returning, **environment):
         """What `up` returns if `low` returns this; all files have one time, whatever they hold."""
-        source = f"from tiny.kernel import kernel\n\n@kernel\ndef low():\n    return {returning}\n"
+        blank = "\n" * returning  # so that the function moves, too
+        source = f"from tiny.kernel import kernel\n{blank}\n@kernel\ndef low():\n    return {returning}\n"
         (package / "lower.py").write_text(source)
         for file in package.glob("*.py"):
             os.utime(file, (1_000_000_000, 1_000_000_000))
