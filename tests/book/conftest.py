@@ -46,19 +46,49 @@ def browser():
         yield browser
 
 
-@pytest.fixture
-def visit(browser, site):
-    """Open the playground at an address, as a reader would. Whatever goes wrong in a page fails the test."""
-    visits = []
+@pytest.fixture(scope="package")
+def tab(browser, site):
+    """A tab that one test uses after the other, and what goes wrong in it: a new one would compile all scripts again."""
+    page = browser.new_page()
+    return page, _complaints_at(page, site)
 
-    def open_page(fragment="", viewport=DESKTOP, page_name="book/playground.html", **options):
-        context = browser.new_context(viewport=viewport, **options)
-        page = context.new_page()
-        visits.append((context, complaints_of(page, (site, f"blob:{site}", "data:"), ("error", "warning"))))
-        page.goto(f"{site}{page_name}" + (f"#{fragment}" if fragment else ""))
-        return page
+
+@pytest.fixture
+def visit(browser, site, tab):
+    """Open the playground at an address, as a reader would. Whatever goes wrong in a page fails the test.
+
+    The next visit leaves the page of the one before, unless that is on a device of its own.
+    """
+    page, complaints = tab
+    devices = []
+
+    def open_page(
+        fragment="",
+        page_name="book/playground.html",
+        viewport=DESKTOP,
+        color_scheme="light",
+        reduced_motion="no-preference",
+        **device,
+    ):
+        opened = page
+        if device:
+            opened = browser.new_page(**device)
+            devices.append((opened, _complaints_at(opened, site)))
+        opened.set_viewport_size(viewport)
+        opened.emulate_media(color_scheme=color_scheme, reduced_motion=reduced_motion)
+        opened.goto("about:blank")  # or else another fragment would not load the page anew
+        opened.goto(f"{site}{page_name}" + (f"#{fragment}" if fragment else ""))
+        return opened
 
     yield open_page
-    for context, _ in visits:
-        context.close()
-    assert [complaint for _, complaints in visits for complaint in complaints] == []
+    page.evaluate("if (location.protocol !== 'about:') localStorage.clear()")
+    page.goto("about:blank")
+    for opened, _ in devices:
+        opened.context.close()
+    wrong = [*complaints, *(complaint for _, those in devices for complaint in those)]
+    complaints.clear()
+    assert wrong == []
+
+
+def _complaints_at(page, site):
+    return complaints_of(page, (site, f"blob:{site}", "data:", "about:blank"), ("error", "warning"))

@@ -101,12 +101,12 @@ def test_the_links_of_the_lesson_are_read(visit, html):
 
 
 def test_many_runs_count_as_the_package_counts(visit):
+    maze = safe.Maze.from_drawing(_drawing_of(visit, "rooms"))
     page = visit(f"view=runs&algorithm=novelty&algorithm=random&seed=100&maze=rooms&{QUICK}")
     page.get_by_label("runs of each algorithm").fill("20")
     page.get_by_role("button", name="Run", exact=True).click()
     page.locator(".outcomes tbody tr").nth(1).get_by_text("20", exact=True).first.wait_for()
     page.get_by_role("button", name="Run", exact=True).wait_for()
-    maze = safe.Maze.from_drawing(_drawing_of(visit, "rooms"))
     for row, name in enumerate(("novelty", "random")):
         runs = [safe.evolve(maze, name, 100 + i, QUICK_PARAMETERS) for i in range(20)]
         successes = sum(run.success for run in runs)

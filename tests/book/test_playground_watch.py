@@ -217,7 +217,6 @@ def test_ten_rows_of_the_tables_open_their_runs(visit, html):
         assert page.locator(".panel .status").inner_text() == status_of(runs[href])
         page.get_by_role("button", name="Drive the best").click()
         assert driven(page) == list(runs[href].controller)
-        page.context.close()
 
 
 def test_other_runs_of_an_experiment_are_a_number_away(visit):
