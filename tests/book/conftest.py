@@ -48,7 +48,7 @@ def browser():
 
 @pytest.fixture(scope="package")
 def tab(browser, site):
-    """A tab that one test uses after the other, and what goes wrong in it: a new one would compile all scripts again."""
+    """A tab for all tests, since a new one would compile all scripts again, and what goes wrong in it."""
     page = browser.new_page()
     return page, _complaints_at(page, site)
 
