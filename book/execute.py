@@ -27,8 +27,8 @@ import papermill
 
 import safe
 from executed import EXECUTED, NOTEBOOKS, ROOT, STAMP, notebooks, requested_parameters, stamp, what_is_wrong
+from safe.companion.notebook import STORE
 
-STORE = "results.sqlite"  # the notebooks' default
 SAMPLE = 5  # runs in it that are repeated at the end
 SETTINGS = ("MPLBACKEND", "PYTHONPATH", "PYTHONSTARTUP", "PYTHONWARNINGS")  # of the user, in the environment
 MUST_SHOW = {  # by a key in the metadata of a cell: what it stands for, and the output that shows it
@@ -139,7 +139,7 @@ def main() -> None:
         parser.error(str(error))
     with isolated():
         _execute_all(chosen, parameters, bool(given))
-    store = ROOT / given.get("store", STORE)
+    store = ROOT / (given.get("store") or STORE)
     if not options.names and store.exists():
         try:
             same = safe.verify(store, SAMPLE)
