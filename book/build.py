@@ -1,7 +1,7 @@
 """Build the book from its executed notebooks.
 
     python book/build.py                         as pages, in _build/html
-    python book/build.py --builder pdflatex      in print, in _build/latex
+    python book/build.py --builder pdflatex      as a PDF, in _build/latex
 
 Every warning is an error. None of the user's own settings reach the build (see `isolated`).
 """
@@ -16,7 +16,7 @@ from pathlib import Path
 from isolated import isolated
 
 ROOT = Path(__file__).parent.parent
-BUILDERS = ("html", "pdflatex")
+BUILDERS = ("html", "latex", "pdflatex")  # latex: the sources of the PDF
 # its folder comes first: an installed package can have the name of an extension of the book, as PyTables has
 PROGRAM = "import sys; sys.path.insert(0, 'book'); from jupyter_book.cli.main import main; main()"
 OPTIONS = ("--toc", "book/_toc.yml", "--quiet", "--warningiserror", "--keep-going", "--nitpick")

@@ -126,6 +126,12 @@ def test_no_number_of_the_prose_is_missing(pages):
         assert "{{" not in re.sub(r"<(script|pre).*?</\1>", "", page, flags=re.DOTALL), name
 
 
+def test_no_page_shows_the_cell_that_installs_the_package(pages):
+    for name, page in pages.items():
+        if name.startswith("notebooks/"):
+            assert "import_module" not in page, name
+
+
 def test_every_page_has_a_title_and_a_description(pages):
     titles = set()
     for name, page in pages.items():
@@ -164,7 +170,7 @@ def with_address(checkout, tmp_path_factory):
 
 def test_the_users_settings_do_not_reach_a_page(with_address, pages):
     for name, page in pages.items():
-        if name != "index.html":
+        if name.startswith(("book/", "notebooks/")):
             article, another = (
                 re.search("<article.*</article>", text, re.DOTALL).group()
                 for text in (page, (with_address / name).read_text())
