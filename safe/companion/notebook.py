@@ -1,8 +1,8 @@
 """Helpers of the book's notebooks: the style of figures, tables with links, numbers for the prose, parameters read.
 
-A notebook runs wherever it is opened: what it does not find by a parameter belongs to the project (see `project`). A
-relative path that a parameter gives is relative to the working directory, which is papermill's own, or the notebook's
-folder in Jupyter.
+A notebook runs wherever it is opened. A file that its parameters leave empty is the project's (see `project`). A
+relative path that they give is relative to the working directory: the shell's with papermill, and the notebook's folder
+in Jupyter.
 """
 
 from __future__ import annotations
