@@ -12,7 +12,7 @@ INSTALL = $(BIN)/uv pip install --quiet --python $(BIN)/python $(FIXED) $(WHAT) 
 	$(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check $(FIXED) $(WHAT)
 FIXED := --constraint constraints.txt
 DENO := DENO_NO_UPDATE_CHECK=1 $(BIN)/deno
-BUILD := $(BIN)/jupyter-book build . --toc book/_toc.yml --quiet --warningiserror --keep-going --nitpick
+BUILD := $(BIN)/python book/build.py
 # before the tests, or else each of their processes would; the kernels that check bounds meanwhile on another core
 COMPILE := $(BIN)/python -c 'from safe.evolution import compile_kernels; compile_kernels()'
 BOUNDS_CHECKED := NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.numba-boundscheck

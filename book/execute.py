@@ -4,33 +4,29 @@
     python book/execute.py table2-success -p runs 100       one notebook, with your own parameters
 
 A copy is written under another name and renamed when it is complete, so an interrupted execution leaves none behind.
-Notebooks run in this program's interpreter, and none of the user's own settings of Jupyter, IPython and matplotlib
-reach them.
+Notebooks run in this program's interpreter and in the project's folder, to which paths in parameters are relative. None
+of the user's own settings reach them (see `isolated`).
 """
 
 from __future__ import annotations
 
 import argparse
 import contextlib
-import json
 import os
 import platform
 import sys
-import tempfile
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
-import matplotlib
 import nbformat
 import papermill
 
 import safe
 from executed import EXECUTED, NOTEBOOKS, ROOT, STAMP, notebooks, requested_parameters, stamp, what_is_wrong
+from isolated import isolated
+from safe.companion.notebook import STORE
 
-STORE = "results.sqlite"  # the notebooks' default
 SAMPLE = 5  # runs in it that are repeated at the end
-SETTINGS = ("MPLBACKEND", "PYTHONPATH", "PYTHONSTARTUP", "PYTHONWARNINGS")  # of the user, in the environment
 MUST_SHOW = {  # by a key in the metadata of a cell: what it stands for, and the output that shows it
     "table": ("table", "text/csv"),
     "mystnb": ("figure", "image/svg+xml"),
@@ -69,30 +65,6 @@ def execute(notebook: Path, parameters: dict[str, object]) -> None:
 def unfinished_copy(notebook: Path) -> Path:
     """The file that holds a notebook's copy until its execution is complete."""
     return EXECUTED / f".{notebook.name}"
-
-
-@contextlib.contextmanager
-def isolated() -> Iterator[None]:
-    """Inside this context, kernels start in this interpreter, without the user's settings."""
-    before = dict(os.environ)
-    with tempfile.TemporaryDirectory() as folder:
-        kernel = Path(folder, "kernels", "python3", "kernel.json")
-        kernel.parent.mkdir(parents=True)
-        command = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]
-        kernel.write_text(json.dumps({"argv": command, "display_name": "Python 3", "language": "python"}))
-        for name in SETTINGS:
-            os.environ.pop(name, None)
-        os.environ |= {
-            "JUPYTER_PATH": folder,  # where Jupyter looks for kernels first
-            "JUPYTER_CONFIG_DIR": folder,
-            "IPYTHONDIR": folder,
-            "MATPLOTLIBRC": str(Path(matplotlib.get_data_path(), "matplotlibrc")),
-        }
-        try:
-            yield
-        finally:
-            os.environ.clear()
-            os.environ.update(before)
 
 
 def check_outputs(executed: nbformat.NotebookNode) -> None:
@@ -139,7 +111,7 @@ def main() -> None:
         parser.error(str(error))
     with isolated():
         _execute_all(chosen, parameters, bool(given))
-    store = ROOT / given.get("store", STORE)
+    store = ROOT / (given.get("store") or STORE)
     if not options.names and store.exists():
         try:
             same = safe.verify(store, SAMPLE)

@@ -16,8 +16,10 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from safe import checks
+from safe.companion.notebook import project
 from safe.results.figures.style import FAINT, legend_below, plain
 
+RECORD = "benchmarks/results.json"  # in the project
 PARTS = (
     "robot",
     "novelty",
@@ -47,11 +49,23 @@ VARIED = {  # sizes that are varied, in words
 def read_measured(path: str | os.PathLike) -> tuple[pd.DataFrame, dict[str, str]]:
     """All measurements, one row each, and a description of the machine that they were made on.
 
+    Parameters
+    ----------
+    path : path
+        The file of measurements; empty: that of the project.
+
     Raises
     ------
     ValueError
-        If the file holds no measurements.
+        If the file holds no measurements, or is that of a project that is not here.
     """
+    if path == "":
+        folder = project()
+        if folder is None:
+            raise ValueError(
+                f"measured must be the path of measurements; got '', for {RECORD} of the project, but there is none"
+            )
+        path = folder / RECORD
     try:
         found = json.loads(Path(path).read_text(encoding="utf-8"))
         rows = [

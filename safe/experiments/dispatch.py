@@ -9,7 +9,6 @@ executor can leave one of its locks closed, for which its threads, and then the 
 
 from __future__ import annotations
 
-import os
 import signal
 import threading
 import time
@@ -23,6 +22,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from safe.evolution import RULES, Run, compile_kernels, evolve_until_stopped
+from safe.experiments.cores import available_cores
 from safe.experiments.progress import bar
 from safe.experiments.provenance import Origin, origin
 from safe.experiments.store import Store, StoredExperiment, StoreError
@@ -48,15 +48,20 @@ class Batch(NamedTuple):
 class Dispatcher:
     """Computes runs of an experiment on an executor, by default on a thread for each core, and stores them.
 
-    `entry` is the experiment's entry in the store.
+    `entry` is the experiment's entry in the store. Without an executor, `cores` is the number of threads.
     """
 
     def __init__(
-        self, experiment: Experiment, store: Store, entry: StoredExperiment, executor: Executor | None
+        self,
+        experiment: Experiment,
+        store: Store,
+        entry: StoredExperiment,
+        executor: Executor | None,
+        cores: int | None = None,
     ) -> None:
         self.experiment, self.store, self.entry = experiment, store, entry
         self.is_callers = executor is not None
-        self.executor = executor if self.is_callers else ThreadPoolExecutor(_cores())
+        self.executor = executor if self.is_callers else ThreadPoolExecutor(cores or available_cores())
         self.waiting: deque[int] = deque()
         self.in_flight: set[Future] = set()
         self.returned: SimpleQueue[Future | None] = SimpleQueue()  # None after Ctrl-C
@@ -197,8 +202,3 @@ def compute_batch(experiment: Experiment, numbers: list[int], stop: np.ndarray) 
             break
         runs.append((number, outcome, time.perf_counter() - started))
     return Batch(RULES, origin(), runs, failure)
-
-
-def _cores() -> int:
-    """How many cores this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

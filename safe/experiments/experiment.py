@@ -157,6 +157,7 @@ def run(
     store: str | os.PathLike | None = None,
     executor: Executor | None = None,
     progress: bool = True,
+    cores: int | None = None,
 ) -> pd.DataFrame:
     """The results of an experiment: the runs in the store, and the missing ones, which are computed now.
 
@@ -168,9 +169,12 @@ def run(
     store : path, optional
         The SQLite file that keeps the results; it is made if it does not exist. Without a store nothing is kept.
     executor : concurrent.futures.Executor, optional
-        What computes the runs; by default one thread for each core that this process may use.
+        What computes the runs; by default threads of this process.
     progress : bool
         Show a progress bar if somebody watches: in a terminal or a notebook, but not in a log.
+    cores : int, optional
+        How many threads compute the runs; by default one for each core that this process may use, by its affinity (or
+        PYTHON_CPU_COUNT in the environment) and by the quotas of its control groups, rounded up.
 
     Returns
     -------
@@ -184,7 +188,8 @@ def run(
     StoreError
         If the store is no results store, cannot be read or written, or is damaged.
     ValueError
-        If `executor` is not an Executor, or computes by other rules.
+        If `executor` is not an Executor, or computes by other rules; if `cores` is no integer of at least 1, or given
+        together with an executor.
 
     Examples
     --------
@@ -197,11 +202,15 @@ def run(
     """
     if executor is not None and not isinstance(executor, Executor):
         raise ValueError(f"executor must be a concurrent.futures.Executor; got {checks.shown(executor)}")
+    if cores is not None:
+        cores = checks.integer("cores", cores, 1)
+        if executor is not None:
+            raise ValueError(f"cores must be left out if an executor or a scheduler is given; got {cores}")
     with Store(store) as results:
         entry = results.entry(experiment.content, experiment.algorithm.name, experiment.maze.name)
         missing = sorted(set(range(experiment.runs)) - results.finished(entry))
         if missing:
-            Dispatcher(experiment, results, entry, executor).compute(missing, progress)
+            Dispatcher(experiment, results, entry, executor, cores).compute(missing, progress)
         stored = results.runs(entry, experiment.runs)
     return pd.DataFrame([{"run": number, **row_of(run), "seconds": seconds} for number, run, seconds, _ in stored])
 
@@ -213,6 +222,7 @@ def run_all(
     seed: int,
     store: str | os.PathLike | None = None,
     executor: Executor | None = None,
+    cores: int | None = None,
 ) -> dict[Experiment, pd.DataFrame]:
     """The results of every algorithm on every maze, maze by maze; for arguments and errors see Experiment and run.
 
@@ -223,7 +233,7 @@ def run_all(
     [('maze1', 1), ('maze2', 1)]
     """
     experiments = [Experiment(algorithm, maze, runs, seed) for maze in mazes for algorithm in algorithms]
-    return {experiment: run(experiment, store, executor) for experiment in experiments}
+    return {experiment: run(experiment, store, executor, cores=cores) for experiment in experiments}
 
 
 def controller_of(row: pd.Series) -> np.ndarray:

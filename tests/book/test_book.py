@@ -126,6 +126,12 @@ def test_no_number_of_the_prose_is_missing(pages):
         assert "{{" not in re.sub(r"<(script|pre).*?</\1>", "", page, flags=re.DOTALL), name
 
 
+def test_no_page_shows_the_cell_that_installs_the_package(pages):
+    for name, page in pages.items():
+        if name.startswith("notebooks/"):
+            assert "import_module" not in page, name
+
+
 def test_every_page_has_a_title_and_a_description(pages):
     titles = set()
     for name, page in pages.items():
@@ -142,16 +148,38 @@ def test_without_an_address_of_the_repository_no_page_links_to_one(pages):
         assert not re.search("mybinder|colab|/edit/", page), name
 
 
-def test_with_an_address_there_are_buttons(checkout, tmp_path):
-    folder = tmp_path / "with address"
+DOCUTILS = "[general]\nsmart_quotes: no\nlanguage_code: de\n[parsers]\nraw_enabled: no\n"
+
+
+@pytest.fixture(scope="module")
+def with_address(checkout, tmp_path_factory):
+    """The pages of a book with an address, built by somebody whose settings would break or change any other build."""
+    folder, home = tmp_path_factory.mktemp("another") / "with address", tmp_path_factory.mktemp("home")
     with locked(checkout):
         shutil.copytree(checkout, folder, ignore=shutil.ignore_patterns("_build"))
     config = folder / "_config.yml"
     config.write_text(config.read_text().replace('url: ""', 'url: "https://github.com/someone/something"'))
-    built = build(folder)
+    for file in (folder / "docutils.conf", home / ".docutils"):
+        file.write_text(DOCUTILS)
+    (home / "theme.py").write_text("raise SystemExit('not the theme of the book')")
+    settings = {"PYTHONWARNINGS": "error", "PYTHONOPTIMIZE": "2", "MPLBACKEND": "nonsense"}
+    built = build(folder, HOME=str(home), PYTHONPATH=str(home), **settings)
     assert built.returncode == 0, output_of(built)
-    html = folder / "_build" / "html"
-    notebook, page = ((html / name).read_text() for name in ("notebooks/ledger.html", "book/safe.html"))
+    return folder / "_build" / "html"
+
+
+def test_the_users_settings_do_not_reach_a_page(with_address, pages):
+    for name, page in pages.items():
+        if name.startswith(("book/", "notebooks/")):
+            article, another = (
+                re.search("<article.*</article>", text, re.DOTALL).group()
+                for text in (page, (with_address / name).read_text())
+            )
+            assert article == another, name
+
+
+def test_with_an_address_there_are_buttons(with_address):
+    notebook, page = ((with_address / name).read_text() for name in ("notebooks/ledger.html", "book/safe.html"))
     assert "https://mybinder.org/v2/gh/someone/something/main?urlpath=tree/notebooks/ledger.ipynb" in notebook
     assert "https://colab.research.google.com/github/someone/something/blob/main/notebooks/ledger.ipynb" in notebook
     assert "https://github.com/someone/something/edit/main/book/safe.md" in page
@@ -338,7 +366,7 @@ def test_a_stale_copy_stops_the_build(checkout):
         (
             ["table2-success", "-p", "run", "5.5"],
             RUNS,
-            "parameter must be one of maze, runs, scheduler, seed, store; got run",
+            "parameter must be one of cores, maze, runs, scheduler, seed, store; got run",
         ),
         (["table3"], RUNS, "notebook must be one of coefficients, .*; got 'table3'"),
         ([], "many", "RUNS must be an integer of at least 1; got 'many'"),

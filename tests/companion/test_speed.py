@@ -24,6 +24,16 @@ def test_the_machine_is_described_without_its_users():
     assert "/" not in "".join(machine.values())
 
 
+def test_by_default_the_measurements_are_those_of_the_project(tmp_path, monkeypatch, measured):
+    monkeypatch.chdir(tmp_path)
+    assert speed.read_measured("")[0].equals(measured)
+    monkeypatch.setattr(speed, "project", lambda: None)
+    with pytest.raises(
+        ValueError, match=r"^measured must be .*; got '', for benchmarks/results.json of the project, but"
+    ):
+        speed.read_measured("")
+
+
 def test_parts_add_up_to_a_generation(measured):
     """Roughly, since the machine also did other things; a part left out or counted twice would show."""
     table = speed.parts_table(measured)

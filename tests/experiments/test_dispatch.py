@@ -5,7 +5,7 @@ from dataclasses import replace
 import pandas as pd
 import pytest
 
-from safe import run
+from safe import run, run_all
 from safe.experiments import dispatch
 from safe.experiments.store import Store, StoreError
 from tests.experiments import EXPERIMENT
@@ -202,3 +202,25 @@ def test_the_error_of_a_failing_run_is_raised_and_the_other_runs_are_stored(tmp_
     rest = InThisThread()
     pd.testing.assert_frame_equal(results(EXPERIMENT, store, rest), uninterrupted)
     assert rest.runs == 1
+
+
+def test_cores_are_threads(monkeypatch, uninterrupted):
+    monkeypatch.setattr(dispatch, "available_cores", lambda: 3)
+    threads = []
+    monkeypatch.setattr(dispatch, "ThreadPoolExecutor", lambda most: threads.append(most) or ThreadPoolExecutor(most))
+    for cores in (None, 1, 5):
+        pd.testing.assert_frame_equal(results(EXPERIMENT, cores=cores), uninterrupted)
+    run_all(["random"], ["maze1"], 1, 0, cores=2)
+    assert threads == [3, 1, 5, 2]
+
+
+@pytest.mark.parametrize("cores", [0, -1, 1.5, "all", True])
+def test_cores_that_are_no_number_of_threads(tmp_path, cores):
+    with pytest.raises(ValueError, match="cores must be an integer of at least 1; got"):
+        run(EXPERIMENT, tmp_path / "s.sqlite", cores=cores)
+    assert not (tmp_path / "s.sqlite").exists()
+
+
+def test_an_executor_has_cores_of_its_own():
+    with pytest.raises(ValueError, match="cores must be left out if an executor or a scheduler is given; got 2"):
+        run(EXPERIMENT, executor=InThisThread(), cores=2)

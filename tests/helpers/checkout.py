@@ -40,14 +40,12 @@ def execute(folder, *arguments, **options):
 
 
 def build(folder, *arguments, **options):
-    """Build the book of a checkout."""
-    command = Path(sys.executable).with_name("jupyter-book")
-    settings = "--toc", "book/_toc.yml", "-W", "--keep-going", "-n"
-    return _call(folder, command, "build", ".", *settings, *arguments, **options)
+    """Run book/build.py in a checkout."""
+    return _call(folder, sys.executable, "book/build.py", *arguments, **options)
 
 
-def _call(folder, *command, runs=RUNS):
-    environment = {**os.environ, "RUNS": runs, "NO_COLOR": "1"}
+def _call(folder, *command, runs=RUNS, **settings):
+    environment = {**os.environ, **settings, "RUNS": runs, "NO_COLOR": "1"}
     return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
 
 

@@ -8,7 +8,9 @@ import matplotlib.pyplot as plt
 import pandas as pd
 import papermill
 import pytest
+from IPython.core.inputtransformer2 import TransformerManager
 
+from safe.companion import notebook as helpers
 from tests.notebooks import NOTEBOOKS
 
 mpl.use("agg")
@@ -19,6 +21,7 @@ BAD = {  # parameter: value, what the error says
     "seed": (-1, "seed must be .*; got -1"),
     "measured": ("none.json", "measured must be the path of measurements; got 'none.json' .No such file or directory."),
     "scheduler": ("nowhere", "scheduler must be the address of a running Dask scheduler, or empty; got 'nowhere'"),
+    "cores": (-1, "cores must be an integer of at least 0; got -1"),
     "store": (".", "store must be .*; got"),
     "run": (-1, "run must be an integer of at least 0; got -1"),
     "row": (1000, r"cell must be a \(row, column\) within the 100 by 100 cells; got \(1000, 60\)"),
@@ -43,12 +46,15 @@ def every_parameter():
             yield pytest.param(notebook, name, id=f"{notebook.stem}-{name}")
 
 
+python = TransformerManager().transform_cell  # the code of a cell, without the syntax that is IPython's own
+
+
 def run(notebook: Path, **parameters):
     """The variables of a notebook, after its code has run here with these parameters in place of its own."""
     names = {}
     for cell in json.loads(notebook.read_text())["cells"]:
         if cell["cell_type"] == "code":
-            exec("".join(cell["source"]), names)
+            exec(python("".join(cell["source"])), names)
             if "parameters" in cell["metadata"].get("tags", []):
                 names |= parameters
     plt.close("all")
@@ -94,3 +100,30 @@ def test_mazes_from_files(notebook, tmp_path, monkeypatch):
     if isinstance(shown, pd.DataFrame):
         assert shown.index.is_unique
         assert not takes_several or len(shown.index.unique(0)) >= 2
+
+
+@pytest.fixture(params=["project", "project/notebooks", "elsewhere", "elsewhere, without a project"])
+def store_by_default(request, tmp_path, monkeypatch):
+    """Where the store of a notebook is to be made that is opened in a folder and given none."""
+    project, package = tmp_path / "project", tmp_path / "project"
+    for folder in ("notebooks", "safe/companion", "../elsewhere", "../site-packages/safe/companion"):
+        (project / folder).mkdir(parents=True)
+    folder, *without = request.param.split(", ")
+    if without:
+        project, package = tmp_path / folder, tmp_path / "site-packages"
+    monkeypatch.setattr(helpers, "__file__", str(package / "safe/companion/notebook.py"))
+    monkeypatch.chdir(tmp_path / folder)
+    return project / "results.sqlite"
+
+
+def test_a_notebook_finds_the_store_of_the_project_wherever_it_is_opened(store_by_default, tmp_path):
+    Path("mine.txt").write_text(MAZE)
+    names = run(NOTEBOOKS[0].with_stem("figure2-deception"), maze="mine.txt", run=0)
+    assert names["results"]
+    assert list(tmp_path.rglob("*.sqlite")) == [store_by_default]
+
+
+def test_a_store_that_is_named_is_relative_to_the_working_directory(store_by_default, tmp_path):
+    Path("mine.txt").write_text(MAZE)
+    run(NOTEBOOKS[0].with_stem("figure2-deception"), maze="mine.txt", run=0, store="results.sqlite")
+    assert list(tmp_path.rglob("*.sqlite")) == [Path.cwd() / "results.sqlite"]
