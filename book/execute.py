@@ -24,6 +24,7 @@ import papermill
 import safe
 from executed import EXECUTED, NOTEBOOKS, ROOT, STAMP, notebooks, requested_parameters, stamp, what_is_wrong
 from isolated import isolated
+from kernels import fork_kernels
 from safe.companion.notebook import STORE
 
 SAMPLE = 5  # runs in it that are repeated at the end
@@ -110,6 +111,7 @@ def main() -> None:
     except ValueError as error:
         parser.error(str(error))
     with isolated():
+        fork_kernels()
         _execute_all(chosen, parameters, bool(given))
     store = ROOT / (given.get("store") or STORE)
     if not options.names and store.exists():

@@ -1,0 +1,128 @@
+"""Kernels that start at once: forked from one process that has imported what the notebooks import.
+
+A kernel spends most of its start on imports, the same for every notebook. So one process, this module as a program,
+imports once, and is forked for each kernel. A kernel still begins without variables, and nothing it does reaches
+another. In Jupyter's client a provisioner starts kernels; `fork_kernels` makes this one the default.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import json
+import os
+import signal
+import subprocess
+import sys
+from importlib.metadata import EntryPoint
+from pathlib import Path
+
+from jupyter_client.provisioning import KernelProvisionerFactory, LocalProvisioner
+
+ROOT = Path(__file__).parent.parent
+IMPORTED = ("ipykernel.kernelapp", "safe.companion.ledger", "safe.companion.notebook", "safe.playground.widget")
+BACKEND = "module://matplotlib_inline.backend_inline"  # a kernel would name it before matplotlib is imported
+
+
+def fork_kernels() -> None:
+    """Let kernels that this process starts be forked, where that is safe: some libraries of macOS cannot be."""
+    if sys.platform == "linux":
+        factory = KernelProvisionerFactory.instance()
+        factory.provisioners["forked"] = EntryPoint("forked", f"{__name__}:ForkedKernel", factory.GROUP_NAME)
+        factory.default_provisioner_name = "forked"
+
+
+class ForkedKernel(LocalProvisioner):
+    """Starts a kernel by forking."""
+
+    async def launch_kernel(self, cmd: list[str], **options: object) -> dict[str, object]:
+        order = {
+            "command": cmd[2:],
+            "folder": str(options.get("cwd") or Path.cwd()),
+            "environment": dict(options["env"]),
+        }
+        self.process = _Process(_ask(order))
+        self.pid = self.process.pid
+        return self.connection_info
+
+
+class _Process:
+    """What a provisioner uses of subprocess.Popen, for a process that is not a child of this one."""
+
+    stdin = stdout = stderr = None
+
+    def __init__(self, pid: int) -> None:
+        self.pid = pid
+
+    def send_signal(self, number: int) -> None:
+        os.kill(self.pid, number)
+
+    def kill(self) -> None:
+        self.send_signal(signal.SIGKILL)
+
+    def terminate(self) -> None:
+        self.send_signal(signal.SIGTERM)
+
+    def poll(self) -> int | None:
+        """None as long as it runs; its status is not known to this process."""
+        try:
+            self.send_signal(0)
+        except ProcessLookupError:
+            return 0
+        return None
+
+    wait = poll  # a provisioner waits only for what has ended
+
+
+@functools.cache
+def _server() -> subprocess.Popen:
+    """The process to fork, which ends with this one, as its standard input does."""
+    return subprocess.Popen(
+        [sys.executable, __file__], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8"
+    )
+
+
+def _ask(order: dict[str, object]) -> int:
+    """Have a kernel started; gives the number of its process."""
+    server = _server()
+    server.stdin.write(json.dumps(order) + "\n")
+    server.stdin.flush()
+    return int(server.stdout.readline())
+
+
+def serve() -> None:
+    """Answer each order, a line of JSON, with the number of a process that has become a kernel."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the program that gives the orders
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # or else kernels that have ended would seem to live
+    sys.path[0] = str(ROOT)
+    os.environ["MPLBACKEND"] = BACKEND
+    for name in IMPORTED:
+        importlib.import_module(name)
+    sys.modules["safe.evolution"].compile_kernels()
+    for line in sys.stdin:
+        number = os.fork()
+        if number == 0:
+            become_kernel(**json.loads(line))
+            return
+        print(number, flush=True)
+
+
+def become_kernel(command: list[str], folder: str, environment: dict[str, str]) -> None:
+    """Do what a new process that was started by this command would do, until it ends."""
+    from ipykernel import kernelapp
+
+    os.setsid()
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+    os.dup2(2, 1)
+    os.chdir(folder)
+    os.environ.clear()
+    os.environ.update(environment)
+    del sys.path[0]
+    sys.argv = [*command, f"--IPKernelApp.parent_handle={os.getppid()}"]  # a kernel ends when this process does
+    kernelapp.launch_new_instance()
+
+
+if __name__ == "__main__":
+    serve()
