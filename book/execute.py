@@ -119,7 +119,9 @@ def main() -> None:
             same = safe.verify(store, SAMPLE)
         except safe.StoreError as error:
             sys.exit(f"the stored results cannot be trusted: {error}")
-        print(f"{len(same)} stored runs, drawn at random, were repeated and gave the same results", flush=True)
+        others = sum(same.sources != "same")
+        said = f", although {others} of them were made from other or unknown sources of the package" if others else ""
+        print(f"{len(same)} stored runs, drawn at random, were repeated and gave the same results{said}", flush=True)
 
 
 def _execute_all(chosen: list[Path], parameters: dict[str, object], always: bool) -> None:

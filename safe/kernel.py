@@ -47,6 +47,17 @@ def sources() -> str:
     return digest.hexdigest()
 
 
+_LOADED = {sources()}
+
+
+def loaded_sources() -> str | None:
+    """The digest of the sources that this process has loaded, whatever has become of the files since.
+
+    None if kernels of different sources were loaded: a module was edited and reloaded.
+    """
+    return next(iter(_LOADED)) if len(_LOADED) == 1 else None
+
+
 class _SourcesInTheName(CompileResultCacheImpl):
     """Names the files of a cache after all the sources of kernels.
 
@@ -55,7 +66,9 @@ class _SourcesInTheName(CompileResultCacheImpl):
     """
 
     def get_filename_base(self, fullname: str, abiflags: str) -> str:
-        return f"{super().get_filename_base(fullname, abiflags)}-{sources()[:16]}"
+        digest = sources()
+        _LOADED.add(digest)
+        return f"{super().get_filename_base(fullname, abiflags)}-{digest[:16]}"
 
 
 class _KernelCache(FunctionCache):

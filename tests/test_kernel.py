@@ -3,6 +3,7 @@
 import dis
 import errno
 import importlib
+import importlib.util
 import inspect
 import os
 import pkgutil
@@ -137,3 +138,19 @@ def test_a_full_disk_is_no_reason_not_to_run(monkeypatch):
     monkeypatch.setattr(safe.kernel._KernelCache, "fault", None)
     assert safe.kernel.kernel(lambda: 3)() == 3
     assert safe.kernel._KernelCache.fault == "its cache cannot be written (No space left on device)"
+
+
+def test_what_was_loaded_stays_known_after_an_edit(tmp_path):
+    """A reloaded module is another matter: its kernels are new, and the others are not."""
+    shutil.copy(safe.kernel.__file__, tmp_path)
+    (tmp_path / "lower.py").write_text("")
+    specification = importlib.util.spec_from_file_location("copy_of_kernel", tmp_path / "kernel.py")
+    copy = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(copy)
+    copy.kernel(is_kernel)
+    loaded = copy.sources()
+    assert copy.loaded_sources() == loaded
+    (tmp_path / "lower.py").write_text("edited = True")
+    assert copy.loaded_sources() == loaded != copy.sources()
+    copy.kernel(is_kernel)
+    assert copy.loaded_sources() is None

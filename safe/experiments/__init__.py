@@ -1,7 +1,8 @@
 """Many independent runs.
 
-store.py        one SQLite file that holds finished runs
-provenance.py   which versions, commit and platform made them
+database.py     the SQLite file of a store: its tables, and how it is opened for writing and for reading
+store.py        holds finished runs in such a file
+provenance.py   which sources, versions, commit and platform made them
 progress.py     the progress bar
 dispatch.py     sends runs to an executor and stores them as they come back
 experiment.py   Experiment, its runs, and their table

@@ -13,6 +13,7 @@ from safe.experiments.experiment import Experiment, row_of
 from safe.experiments.progress import bar
 from safe.experiments.provenance import Origin
 from safe.experiments.store import Store, StoredExperiment, StoreError
+from safe.kernel import loaded_sources
 
 
 def merge(store: str | os.PathLike, other: str | os.PathLike) -> int:
@@ -23,7 +24,7 @@ def merge(store: str | os.PathLike, other: str | os.PathLike) -> int:
     store : path
         The store that grows; it is made if it does not exist.
     other : path
-        The other store. It keeps its runs; if it has an earlier layout, it is updated to the present one.
+        The other store, which is only read, and may be read-only.
 
     Returns
     -------
@@ -36,7 +37,7 @@ def merge(store: str | os.PathLike, other: str | os.PathLike) -> int:
         If one of them is no store or is damaged, or if they hold different outcomes of the same run. Nothing is merged
         then.
     """
-    with Store(other, must_exist=True) as source, Store(store) as target:
+    with Store.for_reading(other) as source, Store.for_writing(store) as target:
         additions = [(experiment, _lacking(target, experiment, source)) for experiment in source.experiments()]
         for experiment, batches in additions:
             entry = target.entry(experiment.content, experiment.algorithm, experiment.maze)
@@ -65,12 +66,13 @@ def _lacking(
 def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, progress: bool = True) -> pd.DataFrame:
     """Make some of the runs in a store again, and compare them with the stored ones, to the last bit.
 
-    The checksums of all runs are checked, too. Runs that follow earlier rules are left out.
+    The checksums of all runs are checked, too. Runs that follow earlier rules are left out. Runs that were made from
+    other sources of this package are repeated like the others, and marked.
 
     Parameters
     ----------
     store : path
-        The store.
+        The store, which is only read, and may be read-only.
     sample : int
         How many runs, drawn at random from all experiments; all runs if there are no more.
     seed : int, optional
@@ -81,7 +83,9 @@ def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, 
     Returns
     -------
     pandas.DataFrame
-        One row for each run that was made again and is the same: algorithm, maze, seed, run, success, generation.
+        One row for each run that was made again and is the same: algorithm, maze, seed, run, success, generation,
+        sources. The last says whether it was made from the "same" sources as this time, from "other" ones, or from
+        "unknown" ones, which early versions did not record.
 
     Raises
     ------
@@ -101,7 +105,7 @@ def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, 
     """
     sample = checks.integer("sample", sample, 1)
     draw = np.random.default_rng(None if seed is None else checks.integer("seed", seed, 0))
-    with Store(store, must_exist=True) as results:
+    with Store.for_reading(store) as results:
         stored = [
             (entry, kept.number)
             for entry in results.experiments()
@@ -109,22 +113,41 @@ def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, 
             for kept in results.runs(entry)
         ]
         chosen = draw.choice(len(stored), min(sample, len(stored)), replace=False)
-        same, experiments = [], {}
-        for entry, number in bar("verifying", progress, iterable=[stored[i] for i in chosen], unit="run"):
-            if entry.id not in experiments:
-                experiments[entry.id] = _experiment(entry, results)
-            experiment = experiments[entry.id]
-            remade = evolve(
-                experiment.maze, experiment.algorithm, experiment.seed_sequence(number), experiment.parameters
+        kept_runs = [
+            (entry, kept, results.origin_of(kept.batch))
+            for entry, number in (stored[i] for i in chosen)
+            for kept in results.runs(entry, first=number, below=number + 1)
+        ]
+    same, experiments = [], {}
+    for entry, (number, kept, *_), origin in bar("verifying", progress, iterable=kept_runs, unit="run"):
+        if entry.id not in experiments:
+            experiments[entry.id] = _experiment(entry, results)
+        experiment = experiments[entry.id]
+        remade = evolve(experiment.maze, experiment.algorithm, experiment.seed_sequence(number), experiment.parameters)
+        sources = _sources(origin)
+        if kept != remade:
+            raise StoreError(
+                f"store must hold what its experiments make; got {results}, where run {number} of {entry.label}, "
+                f"seed {experiment.seed}, has {_difference(kept, remade)}{_blame(origin, sources)}"
             )
-            for kept in results.runs(entry, first=number, below=number + 1):
-                if kept.run != remade:
-                    raise StoreError(
-                        f"store must hold what its experiments make; got {results}, where run {number} of "
-                        f"{entry.label}, seed {experiment.seed}, has {_difference(kept.run, remade)}"
-                    )
-            same.append((entry.algorithm, entry.maze, experiment.seed, number, remade.success, remade.generation))
-    return pd.DataFrame(same, columns=["algorithm", "maze", "seed", "run", "success", "generation"])
+        row = entry.algorithm, entry.maze, experiment.seed, number, remade.success, remade.generation, sources
+        same.append(row)
+    return pd.DataFrame(same, columns=["algorithm", "maze", "seed", "run", "success", "generation", "sources"])
+
+
+def _sources(origin: Origin) -> str:
+    """Were these runs made from the sources that this process has loaded: the same, other or unknown ones?"""
+    if origin.sources is None or loaded_sources() is None:
+        return "unknown"
+    return "same" if origin.sources == loaded_sources() else "other"
+
+
+def _blame(origin: Origin, sources: str) -> str:
+    """The end of an error message: what made a run, unless it was made from the same sources."""
+    if sources == "same":
+        return ""
+    made_by = f"version {str(origin.version)[:20]}, commit {str(origin.commit)[:8]}, sources {str(origin.sources)[:8]}"
+    return f"; it was made from {sources} sources ({made_by})"
 
 
 def _experiment(entry: StoredExperiment, store: Store) -> Experiment:

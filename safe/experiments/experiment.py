@@ -21,7 +21,7 @@ from safe import checks
 from safe.algorithms import COEFFICIENTS, Algorithm, Parameters, get_algorithm
 from safe.evolution import RULES, Generation, Run, generations
 from safe.experiments.dispatch import Dispatcher
-from safe.experiments.store import Store, content_text, sha256
+from safe.experiments.store import Store, StoredExperiment, content_text, sha256
 from safe.maze import Maze
 from safe.maze_files import load_maze
 from safe.robot import WEIGHTS
@@ -167,7 +167,8 @@ def run(
     ----------
     experiment : Experiment
     store : path, optional
-        The SQLite file that keeps the results; it is made if it does not exist. Without a store nothing is kept.
+        The SQLite file that keeps the results; it is made if it does not exist. If it holds all runs, it is only read,
+        and may be read-only. Without a store nothing is kept.
     executor : concurrent.futures.Executor, optional
         What computes the runs; by default threads of this process.
     progress : bool
@@ -206,13 +207,23 @@ def run(
         cores = checks.integer("cores", cores, 1)
         if executor is not None:
             raise ValueError(f"cores must be left out if an executor or a scheduler is given; got {cores}")
-    with Store(store) as results:
-        entry = results.entry(experiment.content, experiment.algorithm.name, experiment.maze.name)
-        missing = sorted(set(range(experiment.runs)) - results.finished(entry))
-        if missing:
-            Dispatcher(experiment, results, entry, executor, cores).compute(missing, progress)
-        stored = results.runs(entry, experiment.runs)
+    with Store.for_reading(store, must_exist=False) as results:
+        entries = results.experiments(experiment.digest)
+        is_complete = len(entries) == 1 and not _missing(experiment, results, entries[0])
+        stored = results.runs(entries[0], experiment.runs) if is_complete else []
+    if not is_complete:
+        with Store.for_writing(store) as results:
+            entry = results.entry(experiment.content, experiment.algorithm.name, experiment.maze.name)
+            missing = _missing(experiment, results, entry)
+            if missing:
+                Dispatcher(experiment, results, entry, executor, cores).compute(missing, progress)
+            stored = results.runs(entry, experiment.runs)
     return pd.DataFrame([{"run": number, **row_of(run), "seconds": seconds} for number, run, seconds, _ in stored])
+
+
+def _missing(experiment: Experiment, store: Store, entry: StoredExperiment) -> list[int]:
+    """The numbers of the runs that the experiment's entry in a store lacks."""
+    return sorted(set(range(experiment.runs)) - store.finished(entry))
 
 
 def run_all(

@@ -1,4 +1,4 @@
-"""Where runs come from: the versions, commit and platform that made them."""
+"""Where runs come from: the sources, versions, commit and platform that made them."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numba
 import numpy as np
 
+from safe.kernel import loaded_sources, sources
 from safe.version import __version__
 
 _PACKAGE = Path(__file__).parents[1]
@@ -26,18 +27,24 @@ class Origin(NamedTuple):
     numba: str
     platform: str
     time: str | None = None  # when the first of these runs was stored, UTC; a store fills it in
+    sources: str | None = None  # see `loaded_sources`; early versions did not record it
+
+
+def origin() -> Origin:
+    """What makes runs in this process."""
+    return _origin(loaded_sources())
 
 
 @functools.cache
-def origin() -> Origin:
-    """What makes runs in this process."""
+def _origin(loaded: str | None) -> Origin:
     return Origin(
         version=__version__,
-        commit=_commit(),
+        commit=_commit() if loaded == sources() else None,  # or else git sees other files than those that are loaded
         python=platform.python_version(),
         numpy=np.__version__,
         numba=numba.__version__,
         platform=platform.platform(),
+        sources=loaded,
     )
 
 

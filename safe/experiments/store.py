@@ -1,12 +1,8 @@
 """The results store: one SQLite file that holds every finished run, and where it came from.
 
-    experiments   one row for each experiment: its content as JSON, and the names it was first run under
-    batches       one row for each program, machine and session that made runs (see `Origin`)
-    runs          one row for each finished run (see `Run`), with a checksum
-
-Runs are committed as they come back. The file is in WAL mode, so several processes can read and write it at once, and
-a process that is killed loses nothing that it has committed. Nothing in the file is trusted: the digest of its content
-identifies an experiment, and a checksum guards each run, so an altered or damaged row is noticed and reaches no table.
+Runs are committed as they come back, so a process that is killed loses nothing that it has committed. Nothing in the
+file is trusted: the digest of its content identifies an experiment, and a checksum guards each run, so an altered or
+damaged row is noticed and reaches no table. For the tables, and for how the file is opened, see `database.py`.
 """
 
 from __future__ import annotations
@@ -15,79 +11,33 @@ import hashlib
 import json
 import os
 import sqlite3
-import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import fields
 from datetime import UTC, datetime
-from pathlib import Path
+from functools import partial
 from typing import NamedTuple
 
 from safe import checks
 from safe.evolution import Run
+from safe.experiments.database import (
+    INSERT_RUN,
+    RUN,
+    checksum,
+    columns,
+    insertion,
+    open_for_reading,
+    open_for_writing,
+)
 from safe.experiments.provenance import Origin
 
-_PATIENCE = 60  # seconds to wait while another process writes
 _LONGEST_PATH = 120  # characters that an error message shows
-_LAYOUT = 2  # of the tables below
-_APPLICATION = 0x53414645  # "SAFE": tells a store from other SQLite files
-_EXPERIMENTS_AND_BATCHES = """
-    CREATE TABLE experiments (
-        id INTEGER PRIMARY KEY,
-        digest TEXT NOT NULL UNIQUE,
-        content TEXT NOT NULL,
-        algorithm TEXT NOT NULL,
-        maze TEXT NOT NULL
-    );
-    CREATE TABLE batches (
-        id INTEGER PRIMARY KEY,
-        experiment INTEGER NOT NULL REFERENCES experiments,
-        version TEXT NOT NULL,
-        "commit" TEXT,
-        python TEXT NOT NULL,
-        numpy TEXT NOT NULL,
-        numba TEXT NOT NULL,
-        platform TEXT NOT NULL,
-        time TEXT NOT NULL
-    );
-"""
-# WITHOUT ROWID keeps the runs in one tree: there is no second one, an index, that damage could make disagree with it
-_RUNS = """
-    CREATE TABLE runs (
-        experiment INTEGER NOT NULL REFERENCES experiments,
-        run INTEGER NOT NULL,
-        batch INTEGER NOT NULL REFERENCES batches,
-        success INTEGER NOT NULL,
-        generation INTEGER NOT NULL,
-        distance INTEGER NOT NULL,
-        controller TEXT NOT NULL,
-        coefficients TEXT NOT NULL,
-        evaluations INTEGER NOT NULL,
-        seconds REAL NOT NULL,
-        checksum TEXT NOT NULL,
-        PRIMARY KEY (experiment, run)
-    ) WITHOUT ROWID;
-"""
 _CELLS = {  # by the type of a field of Run: how its cell is written, and how it is read
     "bool": (int, bool),
     "int": (int, int),
     "tuple[float, ...]": (json.dumps, lambda text: tuple(json.loads(text))),
 }
-_RUN = ["run", *(field.name for field in fields(Run)), "seconds"]
-_A_STORE = "be the path of a results store, or of a file to make"
-
-
-def _list(columns: Iterable[str]) -> str:
-    """Columns as SQL lists them, in brackets since COMMIT is a word of SQL."""
-    return ", ".join(f"[{column}]" for column in columns)
-
-
-def _insert(table: str, *columns: str) -> str:
-    return f"INSERT INTO {table} ({_list(columns)}) VALUES ({', '.join('?' for _ in columns)})"
-
-
-_INSERT_RUN = _insert("runs", "experiment", "batch", *_RUN, "checksum")
-_INSERT_BATCH = _insert("batches", "experiment", *Origin._fields)
+_INSERT_BATCH = insertion("batches", "experiment", *Origin._fields)
 
 
 class StoreError(ValueError):
@@ -119,7 +69,7 @@ class StoredRun(NamedTuple):
 
 
 class Store:
-    """The store in a file, which is made if it does not exist; in memory if the path is None.
+    """The store in a file. `Store.for_writing` and `Store.for_reading` open it.
 
     Raises
     ------
@@ -128,62 +78,26 @@ class Store:
         it cannot be read or written any more, or was altered or damaged.
     """
 
-    def __init__(self, path: str | os.PathLike | None, must_exist: bool = False) -> None:
+    def __init__(self, path: str | os.PathLike | None, connect: Callable[..., sqlite3.Connection], use: str) -> None:
         self.path = path
         self._batches: dict[tuple[int, Origin], int] = {}
         try:
-            self._connection = _connect(path, must_exist)
+            self._connection = connect(path)
+        except PermissionError as error:
+            raise self._refusal(f"be a file that can be {use}", checks.reason(error)) from None
         except (OSError, TypeError, ValueError, sqlite3.Error) as error:
-            raise self._refusal(_A_STORE, checks.reason(error)) from None
-        try:
-            with self._store_errors(_A_STORE):
-                self._set_up()
-        except BaseException:
-            self._connection.close()  # or else an interruption would leave it open, and the file locked
-            raise
+            demand = "be the path of a results store, or of a file to make"
+            raise self._refusal(demand, checks.reason(error)) from None
 
-    def _set_up(self) -> None:
-        """Check that the file is a store; make the tables of a new one, and update an old one."""
-        connection = self._connection
-        connection.execute("BEGIN")  # so that everything is read as of one moment
-        (application,) = connection.execute("PRAGMA application_id").fetchone()
-        layout = _layout(connection)
-        is_new = not _has_tables(connection)
-        connection.execute("COMMIT")
-        if not is_new and application != _APPLICATION:
-            raise self._refusal(_A_STORE, "some other database")
-        if layout > _LAYOUT:
-            reason = f"made by a newer version, with layout {layout}; this one reads up to {_LAYOUT}"
-            raise self._refusal(_A_STORE, reason)
-        _switch_to_wal(connection)
-        connection.execute("PRAGMA synchronous = NORMAL")
-        if not is_new and layout == _LAYOUT:
-            return
-        connection.execute("BEGIN IMMEDIATE")  # of two processes that make the file, one waits for the other
-        if not _has_tables(connection):
-            _execute_all(connection, _EXPERIMENTS_AND_BATCHES + _RUNS)
-            connection.execute(f"PRAGMA application_id = {_APPLICATION}")
-            connection.execute(f"PRAGMA user_version = {_LAYOUT}")
-        elif _layout(connection) == 1:
-            self._add_checksums()
-            connection.execute(f"PRAGMA user_version = {_LAYOUT}")
-        connection.execute("COMMIT")
+    @classmethod
+    def for_writing(cls, path: str | os.PathLike | None) -> Store:
+        """Open a store, which is made if it does not exist; in memory if the path is None."""
+        return cls(path, open_for_writing, "written, to take runs that it lacks")
 
-    def _add_checksums(self) -> None:
-        """Move the runs of a store of layout 1, which had no checksums, into the table of layout 2."""
-        connection = self._connection
-        connection.execute("ALTER TABLE runs RENAME TO runs_without_checksums")
-        _execute_all(connection, _RUNS)
-        (size,) = connection.execute("SELECT count(*) FROM runs_without_checksums").fetchone()
-        rows = connection.execute(
-            f"SELECT digest, experiment, batch, {_list(_RUN)}"
-            " FROM runs_without_checksums JOIN experiments ON experiments.id = experiment"
-        ).fetchall()
-        if len(rows) != size:
-            raise self._refusal(_A_STORE, "some of its runs belong to no experiment")
-        for digest, experiment, batch, *row in rows:
-            connection.execute(_INSERT_RUN, (experiment, batch, *row, _checksum(digest, *row)))
-        connection.execute("DROP TABLE runs_without_checksums")
+    @classmethod
+    def for_reading(cls, path: str | os.PathLike | None, must_exist: bool = True) -> Store:
+        """Open a store, which may be read-only, and change nothing. Unless it must exist, a missing one is empty."""
+        return cls(path, partial(open_for_reading, must_exist=must_exist), "read")
 
     def __enter__(self) -> Store:
         return self
@@ -214,11 +128,12 @@ class Store:
                 raise
 
     @contextmanager
-    def _store_errors(self, demand: str = "be in order, free to be written, and have room to grow") -> Iterator[None]:
+    def _store_errors(self) -> Iterator[None]:
         """Turn an error of SQLite into a StoreError."""
         try:
             yield
         except (sqlite3.Error, UnicodeDecodeError) as error:  # SQLite quotes what is damaged, which may not be UTF-8
+            demand = "be in order, free to be written, and have room to grow"
             raise self._refusal(demand, checks.reason(error)) from None
 
     def _refusal(self, demand: str, reason: str) -> StoreError:
@@ -283,8 +198,8 @@ class Store:
             for number, run, seconds in runs:
                 row = number, *_to_cells(run), seconds
                 connection.execute(
-                    f"{_INSERT_RUN} ON CONFLICT DO NOTHING",
-                    (experiment.id, batch, *row, _checksum(experiment.digest, *row)),
+                    f"{INSERT_RUN} ON CONFLICT DO NOTHING",
+                    (experiment.id, batch, *row, checksum(experiment.digest, *row)),
                 )
         self._batches[key] = batch
 
@@ -292,7 +207,7 @@ class Store:
         """What made the runs of a batch, and when."""
         with self._store_errors():
             row = self._connection.execute(
-                f"SELECT {_list(Origin._fields)} FROM batches WHERE id = ?", (batch,)
+                f"SELECT {columns(Origin._fields)} FROM batches WHERE id = ?", (batch,)
             ).fetchone()
         if row is None:
             raise self._damaged(f"batch {checks.shown(batch)}")
@@ -302,15 +217,15 @@ class Store:
         """The stored runs of an experiment with numbers from `first` to below `below`, in order."""
         with self._store_errors():
             rows = self._connection.execute(
-                f"SELECT batch, checksum, {_list(_RUN)} FROM runs"
+                f"SELECT batch, checksum, {columns(RUN)} FROM runs"
                 " WHERE experiment = ? AND run >= ? AND run < ? ORDER BY run",
                 (experiment.id, first, below),
             ).fetchall()
         found = []
-        for batch, checksum, *row in rows:
+        for batch, expected, *row in rows:
             number, *cells, seconds = row
             try:
-                if _checksum(experiment.digest, *row) != checksum:
+                if checksum(experiment.digest, *row) != expected:
                     raise ValueError
                 found.append(StoredRun(number, _from_cells(cells), seconds, batch))
             except (TypeError, ValueError):
@@ -343,48 +258,3 @@ def _to_cells(run: Run) -> list:
 def _from_cells(cells: Sequence) -> Run:
     """The inverse of `_to_cells`. Raises TypeError or ValueError if a cell holds something else."""
     return Run(*(_CELLS[field.type][1](cell) for field, cell in zip(fields(Run), cells, strict=True)))
-
-
-def _checksum(*values: object) -> str:
-    """A checksum that changes if any of these values does: 64 bits of BLAKE2 over their repr."""
-    return hashlib.blake2b(repr(values).encode(), digest_size=8).hexdigest()
-
-
-def _connect(path: str | os.PathLike | None, must_exist: bool) -> sqlite3.Connection:
-    """Open a file, in a folder that is made if necessary. Transactions are begun by hand."""
-    if must_exist and not Path(path).exists():
-        raise FileNotFoundError("there is no such file")
-    if path is None:
-        return sqlite3.connect(":memory:", isolation_level=None)
-    path = Path(path)
-    if not path.name:  # "" would be a database that SQLite throws away at the end
-        raise ValueError("no file name")
-    path.parent.mkdir(parents=True, exist_ok=True)
-    return sqlite3.connect(path, timeout=_PATIENCE, isolation_level=None)
-
-
-def _execute_all(connection: sqlite3.Connection, statements: str) -> None:
-    """Execute statements within the open transaction, which `executescript` would end first."""
-    for statement in statements.split(";"):
-        connection.execute(statement)
-
-
-def _layout(connection: sqlite3.Connection) -> int:
-    return connection.execute("PRAGMA user_version").fetchone()[0]
-
-
-def _has_tables(connection: sqlite3.Connection) -> bool:
-    return connection.execute("SELECT count(*) FROM sqlite_master").fetchone() != (0,)
-
-
-def _switch_to_wal(connection: sqlite3.Connection) -> None:
-    """Set the journal mode, which the file then keeps. SQLite does not wait for other processes here, so this does."""
-    deadline = time.monotonic() + _PATIENCE
-    while True:
-        try:
-            connection.execute("PRAGMA journal_mode = WAL")
-            return
-        except sqlite3.OperationalError as error:
-            if "locked" not in str(error) or time.monotonic() > deadline:
-                raise
-            time.sleep(0.01)

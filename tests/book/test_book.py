@@ -11,6 +11,7 @@ from html.parser import HTMLParser
 import nbformat
 import pytest
 
+import safe
 from tests.helpers.checkout import ROOT, RUNS, build, execute, locked, output_of
 
 
@@ -380,6 +381,28 @@ def test_the_runner_refuses_what_it_does_not_know(checkout, book_of, monkeypatch
         book_of(checkout, "execute").main()
     assert refused.value.code != 0
     assert re.search(complaint, re.sub(r"\s+", " ", capsys.readouterr().err))
+
+
+@pytest.mark.parametrize(
+    ("sources", "said"),
+    [
+        (["same", "same", "same"], ""),
+        (["other", "same", "unknown"], ", although 2 of them were made from other or unknown sources of the package"),
+    ],
+    ids=["same", "other"],
+)
+def test_runs_made_from_other_sources_are_counted(checkout, book_of, monkeypatch, capsys, tmp_path, sources, said):
+    """Most often they were made before a change of the package: nothing has to be wrong with them."""
+    experiment = safe.Experiment("novelty", "maze1", runs=3, parameters=safe.Parameters(generations=2))
+    safe.run(experiment, tmp_path / "s.sqlite", progress=False)
+    repeated = safe.verify(tmp_path / "s.sqlite", progress=False).assign(sources=sources)
+    execute = book_of(checkout, "execute")
+    monkeypatch.setattr("sys.argv", ["book/execute.py", "-p", "store", str(tmp_path / "s.sqlite")])
+    monkeypatch.setattr(execute, "_execute_all", lambda *_: None)
+    monkeypatch.setattr(execute.safe, "verify", lambda *_: repeated)
+    execute.main()
+    line = f"3 stored runs, drawn at random, were repeated and gave the same results{said}\n"
+    assert capsys.readouterr().out == line
 
 
 @pytest.mark.usefixtures("alone_in_checkout")

@@ -5,6 +5,7 @@ import pytest
 
 from safe import __version__
 from safe.experiments import provenance
+from safe.kernel import sources
 
 
 @pytest.fixture
@@ -49,6 +50,17 @@ def test_a_package_that_is_installed_inside_a_checkout_has_no_commit(checkout):
 def test_without_git_there_is_no_commit(monkeypatch):
     monkeypatch.setenv("PATH", "")
     assert provenance._commit() is None
+
+
+def test_the_sources_are_those_that_were_loaded(monkeypatch):
+    """If files have changed since, git cannot say which commit was loaded."""
+    before = provenance.origin()
+    assert before.sources == sources()
+    monkeypatch.setattr(provenance, "sources", lambda: "edited")
+    assert provenance.origin() == before  # asked before the edit, git was right
+    provenance._origin.cache_clear()
+    assert provenance.origin() == before._replace(commit=None)
+    provenance._origin.cache_clear()
 
 
 def test_origin():

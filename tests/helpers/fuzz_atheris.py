@@ -15,7 +15,7 @@ from pathlib import Path
 
 import atheris
 
-READERS = {"safe.checks", "safe.maze", "safe.maze_files", "safe.experiments.store"}
+READERS = {"safe.checks", "safe.maze", "safe.maze_files", "safe.experiments.database", "safe.experiments.store"}
 ROOT = Path(__file__).parents[2]
 FILES = (ROOT / "safe").rglob("*.py")
 MODULES = {".".join(file.relative_to(ROOT).with_suffix("").parts) for file in FILES if file.stem != "__init__"}
