@@ -43,6 +43,7 @@ from safe.companion import notebook
 from safe.evolution import Generation, Run
 from safe.maze_files import MAZE_FOLDER, load_mazes, parse_maze
 from safe.novelty import METRICS
+from tests.helpers import maze_texts
 
 LONGEST_MESSAGE = 300
 SLOW = 10  # seconds; hundreds of times what a case takes, so that a busy machine fails nothing
@@ -179,8 +180,9 @@ MAZE = Maze.from_drawing(DRAWING)
 MAZE_TEXTS = [
     *(path.read_bytes() for path in sorted(MAZE_FOLDER.glob("*.maze"))),
     *(DRAWING.encode(), b"  2 0\n\n  0 3\n", b"S.\n#G", b"SG"),
-    b"size 4,5\nstart 0,0\ngoal 3,4\nwall 0,1 2,3  # a diagonal\nwall 3,0 3,1\n",
     b"size 1,2\nstart 0,0\ngoal 0,1",
+    *(text.encode() for text, _ in maze_texts.SAME),
+    *maze_texts.SAME_FILES,
 ]
 MAZE_WORDS = st.sampled_from(
     [
@@ -202,8 +204,13 @@ MAZE_WORDS = st.sampled_from(
             "\u2028",
             "\ufeff",
             "\0",
+            "\x1a",
+            "\x1f",
+            "\xa0",
+            "\u3000",
             "é",
             "٣",
+            *"gEeXx+-|█┌",
         ),
         *("size", "start ", "goal ", "wall ", "door ", "size 2,2\n", "start 0,0\n", "goal 1,1\n", "wall 0,0 9,9\n"),
         *(
@@ -212,6 +219,11 @@ MAZE_WORDS = st.sampled_from(
             "-1",
             "1,1",
             "1,1 1,3",
+            "1, 1",
+            "2 2",
+            "0 0 9 9\n",
+            "-1.5e1",
+            "0.",
             "2048",
             "2049,1",
             "1e3",
@@ -561,7 +573,7 @@ def try_store_path(case: object) -> None:
 
 # All of them
 
-FORMAT = "the drawing of a maze|a line of a maze file|a maze file|size|start|goal|wall"
+FORMAT = "a maze|the drawing of a maze|line segments|a line of a maze file|a maze file|size|start|goal|wall"
 SETTINGS = "|".join(SMALL)
 TARGETS = {
     "maze texts": Target(MAZE_FILES, try_maze_text, FORMAT, 20),
