@@ -272,7 +272,7 @@ def try_maze(case: tuple) -> None:
 
 
 def try_maze_name(case: object) -> None:
-    if isinstance(case, str):
+    if isinstance(case, str | list | tuple):
         assert load_mazes(case)
     Maze.from_drawing(case) if isinstance(case, str) else parse_maze(case)
 
