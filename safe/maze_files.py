@@ -109,13 +109,13 @@ def parse_maze(text: str, name: str = "maze") -> Maze:
     - A list gives the size, the start, the goal and the walls. A wall is a straight line from the centre of a cell to
       the centre of another: every cell whose inside it crosses is wall, so no robot slips through. A text is a list if
       one of its lines begins with `size`.
-    - Line segments are the form of Lehman and Stanley's maze files [1]_. Each line holds numbers: how many walls there
-      are; the start, x and y; the robot's heading; the goal, x and y; then for each wall its two ends, x y x y. x
-      counts to the right, y downwards. Single numbers before the first, the heading, and a second point after the goal
-      are ignored. The longer side of the rectangle around all points becomes 100 cells: a point at a distance d from
-      its left edge lies in column 99 d / (longer side), rounded, halves up; rows likewise, from its upper edge. Walls
-      then run from cell to cell, as in a list. A text is line segments if it holds nothing but numbers, and several in
-      some line.
+    - Line segments are the form of Lehman and Stanley's maze files (Evolutionary Computation 19(2), 2011, doi
+      10.1162/EVCO_a_00025). Each line holds numbers: how many walls there are; the start, x and y; the robot's heading;
+      the goal, x and y; then for each wall its two ends, x y x y. x counts to the right, y downwards. Single numbers
+      before the first, the heading, and a second point after the goal are ignored. The longer side of the rectangle
+      around all points becomes 100 cells: a point at a distance d from its left edge lies in column
+      99 d / (longer side), rounded, halves up; rows likewise, from its upper edge. Walls then run from cell to cell, as
+      in a list. A text is line segments if it holds nothing but numbers, and several in some line.
     - Any other text is a drawing, see `Maze.from_drawing`.
 
     In the first two, `#` begins a comment, and there may be blanks around commas. In all, any end of line will do;
@@ -126,11 +126,6 @@ def parse_maze(text: str, name: str = "maze") -> Maze:
     ------
     ValueError
         If the text describes no maze; the message says where.
-
-    References
-    ----------
-    .. [1] Lehman, Stanley: Abandoning Objectives: Evolution Through the Search for Novelty Alone. Evolutionary
-       Computation 19(2), 2011, doi 10.1162/EVCO_a_00025.
 
     Examples
     --------
