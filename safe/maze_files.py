@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import functools
+import itertools
 import math
 import os
 import re
@@ -178,20 +179,7 @@ def read_drawing(text: str, name: str) -> Maze:
                     f"G E 3 (goal), or a list that gives its size, or line segments; got {character!r} in row {number}"
                 )
     if any(" " in row for row in rows):
-        for number, row in enumerate(rows, start=1):
-            if "." in row or "0" in row:
-                raise ValueError(
-                    "the drawing of a maze must show open cells by blanks, or by . and 0; "
-                    f"got blanks, and one of these in row {number}"
-                )
-        for number in range(drawn[0], drawn[-1]):
-            if not lines[number].strip():
-                raise ValueError(
-                    "the drawing of a maze must have no blank line between its rows if blanks are open cells; "
-                    f"got one in line {number + 1}"
-                )
-        if len({len(row) for row in rows}) > 1:
-            rows = _placed([lines[number] for number in drawn])
+        rows = _rows_with_blanks(lines, drawn)
     for number, row in enumerate(rows, start=1):
         if len(row) != len(rows[0]):
             raise ValueError(
@@ -235,11 +223,27 @@ def _lines(text: str) -> list[str]:
     return [re.sub(r"[^\S\t]", " ", line) for line in text.splitlines()]
 
 
-def _placed(lines: list[str]) -> list[str]:
-    """The rows of a drawing in which blanks at both ends are cells, too."""
-    indent = min(len(line) - len(line.lstrip()) for line in lines)
-    width = max(len(line.rstrip()) for line in lines)
-    return [line.rstrip()[indent:].ljust(width - indent) for line in lines]
+def _rows_with_blanks(lines: list[str], drawn: list[int]) -> list[str]:
+    """The rows of a drawing in which blanks are open cells; `drawn` counts, from 0, its lines that are not blank."""
+    rows = [lines[number].strip() for number in drawn]
+    for number, row in enumerate(rows, start=1):
+        if "." in row or "0" in row:
+            raise ValueError(
+                "the drawing of a maze must show open cells by blanks, or by . and 0; "
+                f"got blanks, and one of these in row {number}"
+            )
+    for number, following in itertools.pairwise(drawn):
+        if following != number + 1:
+            raise ValueError(
+                "the drawing of a maze must have no blank line between its rows if blanks are open cells; "
+                f"got one in line {number + 2}"
+            )
+    if len({len(row) for row in rows}) == 1:
+        return rows
+    rows = [lines[number].rstrip() for number in drawn]
+    indent = min(len(row) - len(row.lstrip()) for row in rows)
+    width = max(map(len, rows))
+    return [row[indent:].ljust(width - indent) for row in rows]
 
 
 def _read_list(lines: list[list[str]], name: str) -> Maze:

@@ -93,23 +93,7 @@ function readDrawing(lines, name) {
       );
     }
   });
-  if (rows.some((row) => row.includes(" "))) {
-    const both = rows.findIndex((row) => row.includes(".") || row.includes("0"));
-    if (both >= 0) {
-      throw new InputError(
-        "the drawing of a maze must show open cells by blanks, or by . and 0; " +
-          `got blanks, and one of these in row ${both + 1}`,
-      );
-    }
-    const gap = drawn.findIndex((line, i) => line !== drawn[0] + i);
-    if (gap >= 0) {
-      throw new InputError(
-        "the drawing of a maze must have no blank line between its rows if blanks are open cells; " +
-          `got one in line ${drawn[gap - 1] + 2}`,
-      );
-    }
-    if (rows.some((row) => row.length !== rows[0].length)) rows = placed(drawn.map((i) => lines[i]));
-  }
+  if (rows.some((row) => row.includes(" "))) rows = rowsWithBlanks(lines, drawn);
   const width = rows[0].length;
   rows.forEach((row, i) => {
     if (row.length !== width) {
@@ -129,10 +113,26 @@ function readDrawing(lines, name) {
   return makeMaze(cells.map((cell) => (cell === 1 ? 1 : 0)), height, width, ...ends, name);
 }
 
-/** The rows of a drawing in which blanks at both ends are cells, too. */
-function placed(lines) {
-  const indent = least(lines.map((line) => line.length - line.trimStart().length));
-  const rows = lines.map((line) => [...line.trimEnd()].slice(indent));
+/** The rows of a drawing in which blanks are open cells; `drawn` counts, from 0, its lines that are not blank. */
+function rowsWithBlanks(lines, drawn) {
+  let rows = drawn.map((i) => [...lines[i].trim()]);
+  const both = rows.findIndex((row) => row.includes(".") || row.includes("0"));
+  if (both >= 0) {
+    throw new InputError(
+      "the drawing of a maze must show open cells by blanks, or by . and 0; " +
+        `got blanks, and one of these in row ${both + 1}`,
+    );
+  }
+  const gap = drawn.findIndex((line, i) => line !== drawn[0] + i);
+  if (gap >= 0) {
+    throw new InputError(
+      "the drawing of a maze must have no blank line between its rows if blanks are open cells; " +
+        `got one in line ${drawn[gap - 1] + 2}`,
+    );
+  }
+  if (rows.every((row) => row.length === rows[0].length)) return rows;
+  const indent = least(drawn.map((i) => lines[i].length - lines[i].trimStart().length));
+  rows = drawn.map((i) => [...lines[i].trimEnd()].slice(indent));
   const width = -least(rows.map((row) => -row.length));
   return rows.map((row) => [...row, ...Array(width - row.length).fill(" ")]);
 }
