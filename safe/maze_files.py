@@ -242,8 +242,15 @@ def _rows_with_blanks(lines: list[str], drawn: list[int]) -> list[str]:
         return rows
     rows = [lines[number].rstrip() for number in drawn]
     indent = min(len(row) - len(row.lstrip()) for row in rows)
+    rows = [row[indent:] for row in rows]
+    for number, row in enumerate(rows, start=1):
+        if "\t" in row:
+            raise ValueError(
+                "the drawing of a maze must be indented by the same tabs in all rows if blanks are open cells; "
+                f"got another in row {number}"
+            )
     width = max(map(len, rows))
-    return [row[indent:].ljust(width - indent) for row in rows]
+    return [row.ljust(width) for row in rows]
 
 
 def _read_list(lines: list[list[str]], name: str) -> Maze:

@@ -235,7 +235,8 @@ MAZE_WORDS = st.sampled_from(
         ),
     ]
 ).map(lambda word: word.encode()) | st.binary(max_size=4)
-MAZE_FILES = mutated(MAZE_TEXTS, MAZE_WORDS) | st.binary()
+DRAWINGS = st.text("SsGgEe23 .0#1Xx+-|█\t\n\n\r\u3000\xa0\x1f\x85\ufeff", max_size=30).map(str.encode)
+MAZE_FILES = mutated(MAZE_TEXTS, MAZE_WORDS) | DRAWINGS | st.binary()
 WALLS = hnp.arrays(
     bool, hnp.array_shapes(min_dims=2, max_dims=2, max_side=9), elements=st.sampled_from([*[False] * 7, True])
 )

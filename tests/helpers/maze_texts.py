@@ -22,6 +22,7 @@ SAME_DRAWINGS = [
     ("  #####\n  #S\n  #  ##\n   # G\n", "#####\n#S...\n#..##\n.#.G."),
     ("  #####   \n  #S\n  #  ##\t\n   # G", "#####\n#S...\n#..##\n.#.G."),
     ("   #  G\n S\n", "..#..G\nS....."),
+    ("\t #  G\n\tS\n", ".#..G\nS...."),
 ]
 BAD_DRAWINGS = [
     ("", "at least one row; got none"),
@@ -36,6 +37,7 @@ BAD_DRAWINGS = [
     ("size3,3\nstart 0,0", "got 'i' in row 1"),
     ("S G\n..#", "open cells by blanks, or by . and 0; got blanks, and one of these in row 2"),
     ("0 1 0 S\n0 0 0 G", "open cells by blanks, or by . and 0; got blanks, and one of these in row 1"),
+    ("#S #\n\t# G", "indented by the same tabs in all rows if blanks are open cells; got another in row 2"),
     ("S #\n\n# G", "no blank line between its rows if blanks are open cells; got one in line 2"),
     ("\n#S #\n#  #\n  \n# G#", "no blank line between its rows if blanks are open cells; got one in line 4"),
     ("S...", "exactly one goal; got 0"),

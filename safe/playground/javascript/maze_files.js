@@ -133,6 +133,13 @@ function rowsWithBlanks(lines, drawn) {
   if (rows.every((row) => row.length === rows[0].length)) return rows;
   const indent = least(drawn.map((i) => lines[i].length - lines[i].trimStart().length));
   rows = drawn.map((i) => [...lines[i].trimEnd()].slice(indent));
+  const tabbed = rows.findIndex((row) => row.includes("\t"));
+  if (tabbed >= 0) {
+    throw new InputError(
+      "the drawing of a maze must be indented by the same tabs in all rows if blanks are open cells; " +
+        `got another in row ${tabbed + 1}`,
+    );
+  }
   const width = -least(rows.map((row) => -row.length));
   return rows.map((row) => [...row, ...Array(width - row.length).fill(" ")]);
 }
