@@ -109,14 +109,40 @@ class Maze:
 
     @classmethod
     def from_drawing(cls, text: str, name: str = "drawing") -> Maze:
-        """The maze drawn in characters: `.` or `0` open, `#` or `1` wall, `S` or `2` start, `G` or `3` goal.
+        """The maze drawn in characters.
 
-        Each line is a row; blank lines, and blanks around a line, do not count.
+        - Open: `.` or `0`, or a blank.
+        - Wall: `#`, `1`, `X`, `+`, `-` or `|`, the blocks █ ▓ ■, and all lines and corners of boxes.
+        - Start: `S` or `2`.
+        - Goal: `G`, `E` (the end, or exit) or `3`.
+
+        Letters may be small. Each line is a row; blank lines, and blanks around a line, do not count.
+
+        Blanks are open cells if one stands between two other characters of a line. Then there must be no blank line
+        between rows. If the rows are not of the same length, the blanks around them are open cells, too: rows begin in
+        the column of the leftmost character, and end in that of the rightmost, whether or not an editor has removed
+        the blanks behind them.
 
         Raises
         ------
         ValueError
-            If the drawing is ragged, holds another character, or does not have exactly one start and one goal.
+            If the drawing is ragged and has no blanks for open cells, if it has both blanks and `.` or `0` for them,
+            if it holds another character, or if it does not have exactly one start and one goal.
+
+        Examples
+        --------
+        >>> maze = Maze.from_drawing('''
+        ...     +---+--
+        ...     |S  |
+        ...     +-+   |
+        ...     |   | E
+        ...     +---+--''')
+        >>> print(maze.drawing())
+        #######
+        #S..#..
+        ###...#
+        #...#.G
+        #######
         """
         from safe.maze_files import read_drawing  # which makes mazes, and so imports this module
 

@@ -167,7 +167,7 @@ def test_at_the_goal_the_component_is_two():
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        ({"maze": "maze3"}, "maze must be one of 'maze1', 'maze2'"),
+        ({"maze": "maze3"}, "maze must be one of 'hard', 'maze1', 'maze2', 'medium'"),
         (
             {"algorithm": "saef"},
             "algorithm must be one of 'standard', 'novelty', 'safe', 'fixed', 'random'; got 'saef'",

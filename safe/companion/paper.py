@@ -12,6 +12,8 @@ from safe.algorithms import ALGORITHMS, Parameters
 from safe.experiments.experiment import Experiment
 from safe.maze_files import is_packaged
 
+MAZES = ("maze1", "maze2")
+
 
 def published() -> pd.DataFrame:
     """Every number of the paper: table, maze, item, quantity, mean (or the number itself), sd, n."""
@@ -22,7 +24,8 @@ def is_the_papers(experiment: Experiment) -> bool:
     """Is this an experiment of the paper? Its maze, algorithm and parameters decide; a name alone does not."""
     algorithm = experiment.algorithm
     return (
-        is_packaged(experiment.maze)
+        experiment.maze.name in MAZES
+        and is_packaged(experiment.maze)
         and algorithm == ALGORITHMS.get(algorithm.name)
         and experiment.parameters == Parameters()
     )

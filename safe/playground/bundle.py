@@ -112,8 +112,10 @@ def _read_modules(folder: Path, entries: tuple[str, ...]) -> dict[str, _Module]:
 
 
 def _packaged_mazes() -> str:
-    """The module that holds the texts of the package's mazes by their names."""
-    texts = {name: (MAZE_FOLDER / f"{name}.maze").read_text(encoding="utf-8") for name in maze_names()}
+    """The module that holds the texts of the package's mazes by their names, without comments."""
+    texts = {
+        name: re.sub("#.*\n", "", (MAZE_FOLDER / f"{name}.maze").read_text(encoding="utf-8")) for name in maze_names()
+    }
     return f"export const PACKAGED_MAZES = {json.dumps(texts)};\n"
 
 

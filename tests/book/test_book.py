@@ -412,5 +412,5 @@ def test_a_failed_execution_leaves_the_copy_as_it_was(checkout):
     failed = execute(checkout, "figure1-mazes", "-p", "maze", "maze3")
     assert failed.returncode != 0
     (complaint,) = failed.stderr.splitlines()
-    assert complaint.startswith("[1/1] figure1-mazes: ValueError: maze must be one of 'maze1', 'maze2'")
+    assert complaint.startswith("[1/1] figure1-mazes: ValueError: maze must be one of 'hard', 'maze1', 'maze2', ")
     assert copy.read_bytes() == before

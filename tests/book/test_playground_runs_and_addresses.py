@@ -28,7 +28,7 @@ pytestmark = needs_browser
 @pytest.mark.parametrize(
     ("fragment", "message"),
     [
-        ("maze=maze9", "maze must be one of 'maze1', 'maze2'"),
+        ("maze=maze9", "maze must be one of 'hard', 'maze1', 'maze2', 'medium'"),
         ("algorithm=genetic", "algorithm must be one of 'standard', 'novelty', 'safe'"),
         ("seed=-1", "seed must be an integer"),
         ("population=7", "population must be an even number; got 7"),

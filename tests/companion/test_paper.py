@@ -43,6 +43,11 @@ def test_an_experiment_that_only_shares_names_with_the_papers_is_not_compared_wi
     assert np.isnan(table.paper_successes.iloc[0])
 
 
+def test_a_maze_that_comes_along_need_not_be_the_papers():
+    assert paper.is_the_papers(safe.Experiment("safe", "maze2"))
+    assert not paper.is_the_papers(safe.Experiment("safe", "medium"))
+
+
 def test_the_papers_weights_are_named_as_ours():
     published = paper.published()
     named = dict(zip(published["item"], published.quantity, strict=True))

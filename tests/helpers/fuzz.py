@@ -43,6 +43,7 @@ from safe.companion import notebook
 from safe.evolution import Generation, Run
 from safe.maze_files import MAZE_FOLDER, load_mazes, parse_maze
 from safe.novelty import METRICS
+from tests.helpers import maze_texts
 
 LONGEST_MESSAGE = 300
 SLOW = 10  # seconds; hundreds of times what a case takes, so that a busy machine fails nothing
@@ -179,8 +180,9 @@ MAZE = Maze.from_drawing(DRAWING)
 MAZE_TEXTS = [
     *(path.read_bytes() for path in sorted(MAZE_FOLDER.glob("*.maze"))),
     *(DRAWING.encode(), b"  2 0\n\n  0 3\n", b"S.\n#G", b"SG"),
-    b"size 4,5\nstart 0,0\ngoal 3,4\nwall 0,1 2,3  # a diagonal\nwall 3,0 3,1\n",
     b"size 1,2\nstart 0,0\ngoal 0,1",
+    *(text.encode() for text, _ in maze_texts.SAME),
+    *maze_texts.SAME_FILES,
 ]
 MAZE_WORDS = st.sampled_from(
     [
@@ -202,8 +204,13 @@ MAZE_WORDS = st.sampled_from(
             "\u2028",
             "\ufeff",
             "\0",
+            "\x1a",
+            "\x1f",
+            "\xa0",
+            "\u3000",
             "é",
             "٣",
+            *"gEeXx+-|█┌",
         ),
         *("size", "start ", "goal ", "wall ", "door ", "size 2,2\n", "start 0,0\n", "goal 1,1\n", "wall 0,0 9,9\n"),
         *(
@@ -212,6 +219,11 @@ MAZE_WORDS = st.sampled_from(
             "-1",
             "1,1",
             "1,1 1,3",
+            "1, 1",
+            "2 2",
+            "0 0 9 9\n",
+            "-1.5e1",
+            "0.",
             "2048",
             "2049,1",
             "1e3",
@@ -223,7 +235,8 @@ MAZE_WORDS = st.sampled_from(
         ),
     ]
 ).map(lambda word: word.encode()) | st.binary(max_size=4)
-MAZE_FILES = mutated(MAZE_TEXTS, MAZE_WORDS) | st.binary()
+DRAWINGS = st.text("SsGgEe23 .0#1Xx+-|█\t\n\n\r\u3000\xa0\x1f\x85\ufeff", max_size=30).map(str.encode)
+MAZE_FILES = mutated(MAZE_TEXTS, MAZE_WORDS) | DRAWINGS | st.binary()
 WALLS = hnp.arrays(
     bool, hnp.array_shapes(min_dims=2, max_dims=2, max_side=9), elements=st.sampled_from([*[False] * 7, True])
 )
@@ -260,7 +273,7 @@ def try_maze(case: tuple) -> None:
 
 
 def try_maze_name(case: object) -> None:
-    if isinstance(case, str):
+    if isinstance(case, str | list | tuple):
         assert load_mazes(case)
     Maze.from_drawing(case) if isinstance(case, str) else parse_maze(case)
 
@@ -561,7 +574,7 @@ def try_store_path(case: object) -> None:
 
 # All of them
 
-FORMAT = "the drawing of a maze|a line of a maze file|a maze file|size|start|goal|wall"
+FORMAT = "a maze|the drawing of a maze|line segments|a line of a maze file|a maze file|size|start|goal|wall"
 SETTINGS = "|".join(SMALL)
 TARGETS = {
     "maze texts": Target(MAZE_FILES, try_maze_text, FORMAT, 20),

@@ -4,6 +4,7 @@ Nothing here imports the package. A maze is a list of strings (`#` wall), a cont
 """
 
 import math
+from fractions import Fraction
 
 
 def find(drawing, symbol):
@@ -15,6 +16,19 @@ def find(drawing, symbol):
 
 def is_free(drawing, row, column):
     return 0 <= row < len(drawing) and 0 <= column < len(drawing[0]) and drawing[row][column] != "#"
+
+
+def crosses(first, last, cell):
+    """Does the line between the centres of two cells cross the inside of a cell?"""
+    begins, ends = Fraction(0), Fraction(1)  # of the part within the cell, as shares of the line
+    for start, end, middle in zip(first, last, cell, strict=True):
+        if start == end:
+            if start != middle:
+                return False
+        else:
+            sides = [(middle + half - start) / Fraction(end - start) for half in (Fraction(-1, 2), Fraction(1, 2))]
+            begins, ends = max(begins, min(sides)), min(ends, max(sides))
+    return begins < ends or first == last
 
 
 def look(drawing, row, column, down, right):

@@ -16,7 +16,7 @@ from tests.notebooks import NOTEBOOKS
 mpl.use("agg")
 
 BAD = {  # parameter: value, what the error says
-    "maze": ("maze3", "maze must be one of 'maze1', 'maze2' or the path of a maze file; got 'maze3'"),
+    "maze": ("maze3", "maze must be one of 'hard', 'maze1', 'maze2', 'medium' or the path of a maze file; got 'maze3'"),
     "runs": (0, "runs must be an integer from 1 to 1000000; got 0"),
     "seed": (-1, "seed must be .*; got -1"),
     "measured": ("none.json", "measured must be the path of measurements; got 'none.json' .No such file or directory."),
@@ -89,11 +89,11 @@ def test_mazes_from_files(notebook, tmp_path, monkeypatch):
     """Two of the same name, if the notebook takes several: each has rows that differ from those of the other."""
     monkeypatch.chdir(tmp_path)
     Path("mine.txt").write_text(MAZE)
-    Path("other").mkdir()
-    Path("other/mine.txt").write_text(MAZE[::-1])
+    Path("the other").mkdir()
+    Path("the other/mine.txt").write_text(MAZE[::-1])
     known = papermill.inspect_notebook(notebook)
     takes_several = "maze" in known and " " in known["maze"]["default"]
-    mazes = "mine.txt other/mine.txt" if takes_several else "mine.txt"
+    mazes = ["mine.txt", "the other/mine.txt"] if takes_several else "the other/mine.txt"
     parameters = SMALL | {"maze": mazes, "store": "results.sqlite", "measured": MEASURED}
     names = run(notebook, **{name: value for name, value in parameters.items() if name in known})
     shown = names.get("shown")

@@ -81,6 +81,7 @@ def test_a_controller_that_is_none(controller):
 
 def test_a_maze_that_is_none():
     with pytest.raises(
-        ValueError, match="maze must be one of 'maze1', 'maze2' or the path of a maze file; got 'maze3'"
+        ValueError,
+        match="maze must be one of 'hard', 'maze1', 'maze2', 'medium' or the path of a maze file; got 'maze3'",
     ):
         drive_address("maze3")

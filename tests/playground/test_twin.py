@@ -11,10 +11,9 @@ from hypothesis import strategies as st
 import safe
 from safe import Algorithm, Maze, NoveltyArchive, Parameters, checks, load_maze
 from safe.maze import ways_to_goal
-from safe.maze_files import MAZE_FOLDER, parse_maze
+from safe.maze_files import MAZE_FOLDER, parse_maze, text_of
 from safe.novelty import METRICS
-from tests.helpers import fuzz, golden, record
-from tests.helpers.maze_texts import BAD_DRAWINGS, BAD_LISTS
+from tests.helpers import fuzz, golden, maze_texts, record
 from tests.helpers.reference import reference_endpoints
 from tests.helpers.runs import runs_of_every_kind
 from tests.helpers.strategies import controllers, generations_of_points, mazes
@@ -60,10 +59,17 @@ def assert_parsed_alike(twin, texts):
         assert answer == parsed(text), repr(text)
 
 
-def test_the_papers_mazes_from_their_files(twin):
-    texts = [path.read_text() for path in MAZE_FOLDER.glob("*.maze")]
-    assert len(texts) == 2
-    assert_parsed_alike(twin, texts)
+def assert_read_alike(twin, files):
+    calls = [{"function": "readMaze", "bytes": list(data)} for data in files]
+    for data, answer in zip(files, twin.answers(calls), strict=True):
+        answer.pop("stack", None)
+        assert answer == parsed(text_of(data)), data
+
+
+def test_mazes_from_their_files(twin):
+    files = [*MAZE_FOLDER.glob("*.maze"), *DATA.glob("*_maze.txt")]
+    assert len(files) == 6
+    assert_read_alike(twin, [file.read_bytes() for file in files])
 
 
 def test_a_maze_has_its_name(twin):
@@ -72,12 +78,24 @@ def test_a_maze_has_its_name(twin):
 
 
 def test_a_text_that_is_no_maze_is_refused_in_the_same_words(twin):
-    assert_parsed_alike(twin, [text for text, _ in BAD_DRAWINGS + BAD_LISTS])
+    assert_parsed_alike(twin, [text for text, _ in maze_texts.BAD])
+    assert_read_alike(twin, [data for data, _ in maze_texts.BAD_FILES])
+
+
+def test_texts_of_the_same_maze(twin):
+    assert_parsed_alike(twin, [text for text, _ in maze_texts.SAME])
+    assert_read_alike(twin, maze_texts.SAME_FILES)
 
 
 @given(texts=st.lists(fuzz.MAZE_FILES.map(lambda data: data.decode("utf-8", "surrogateescape")), max_size=20))
 def test_whatever_the_text_it_is_the_same_maze_or_the_same_words(twin, texts):
     assert_parsed_alike(twin, texts)
+
+
+@settings(max_examples=30)
+@given(files=st.lists(fuzz.MAZE_FILES, max_size=20))
+def test_whatever_the_file_it_is_the_same_maze_or_the_same_words(twin, files):
+    assert_read_alike(twin, files)
 
 
 # only characters that every version of Unicode has: Python and a browser may know different versions

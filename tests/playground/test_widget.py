@@ -148,7 +148,7 @@ def test_one_row_can_be_drawn_in_the_page(playground):
 
 
 BAD = [
-    ("maze", "maze3", "maze must be one of 'maze1', 'maze2' or the path of a maze file; got 'maze3'"),
+    ("maze", "maze3", "maze must be one of 'hard', 'maze1', 'maze2', 'medium' or the path of a maze file; got 'maze3'"),
     ("maze", "S.\n..", "the drawing of a maze must have exactly one goal; got 0"),
     ("maze", None, "maze must be a Maze, a maze's name or a file's path; got None"),
     ("controller", [0] * 15, r"controller must have the shape \(16\); got shape \(15,\)"),

@@ -1,28 +1,44 @@
-// Texts to mazes and back: drawings in characters, and lists of walls (see safe/maze_files.py).
+// Texts to mazes and back: drawings in characters, lists of walls, and line segments (see safe/maze_files.py).
 
 import { InputError, shown } from "./checks.js";
 import { LONGEST_SIDE, makeMaze } from "./maze.js";
 
-const SYMBOLS = new Map([[".", 0], ["0", 0], ["#", 1], ["1", 1], ["S", 2], ["2", 2], ["G", 3], ["3", 3]]);
+const BOX_LINES = Array.from({ length: 0x80 }, (_, i) => String.fromCharCode(0x2500 + i));
+const KINDS = [[..." .0"], [..."#1Xx+-|█▓■", ...BOX_LINES], [..."S2s"], [..."G3gEe"]]; // open, wall, start, goal
+const SYMBOLS = new Map(KINDS.flatMap((symbols, kind) => symbols.map((symbol) => [symbol, kind])));
 const FOLLOWS = {
   size: "height,width",
   start: "row,column",
   goal: "row,column",
   wall: "row,column row,column",
 };
-const BLANK = "[\\t-\\r\\x1c-\\x20\\x85\\xa0\\u1680\\u2000-\\u200a\\u2028\\u2029\\u202f\\u205f\\u3000]";
-const BLANKS = new RegExp(BLANK + "+");
-const OUTER_BLANKS = new RegExp(`^${BLANK}+|${BLANK}+$`, "g");
+const NUMBER = /^[+-]?[0-9]{1,9}(\.[0-9]{0,20})?(e[+-]?[0-9]{1,2})?$/;
+const SEGMENTS_SIDE = 100; // cells on the longer side of a maze of line segments
 
-/** The maze that a text describes: a drawing, or a list of size, start, goal and wall lines. */
+/** The text in a file, given by its bytes. */
+export function textOf(bytes) {
+  const encodings = { "255,254": "utf-16le", "254,255": "utf-16be" };
+  return new TextDecoder(encodings[bytes.slice(0, 2).join()] ?? "utf-8", { ignoreBOM: true }).decode(bytes);
+}
+
+/** The maze that a text describes: a list of size, start, goal and wall lines, line segments, or a drawing. */
 export function parseMaze(text, name = "maze") {
   if (typeof text !== "string") throw new InputError(`text must be a str; got ${shown(text)}`);
-  // deno-lint-ignore no-control-regex -- these end a line for Python, too
-  const lines = text.split(/\r\n|[\n-\r\x1c-\x1e\x85\u2028\u2029]/);
-  const wordsOfLines = lines.map((line) =>
-    line.split("#")[0].replace(OUTER_BLANKS, "").split(BLANKS).filter((word) => word)
-  );
-  return wordsOfLines.some((words) => words[0] === "size") ? readList(wordsOfLines, name) : readDrawing(lines, name);
+  const all = linesOf(text);
+  if (text.includes("\0")) {
+    throw new InputError(
+      "a maze file must be text in UTF-8, or in UTF-16 with a byte order mark; got NUL characters",
+    );
+  }
+  const lines = all.map((line) => line.split("#")[0]);
+  if (lines.some((line) => splitWords(line)[0] === "size")) {
+    return readList(lines.map((line) => splitWords(line.split(",").map((part) => part.trim()).join())), name);
+  }
+  const numbers = lines.map((line) => splitWords(line.replaceAll(",", " "))).filter((words) => words.length > 0);
+  if (numbers.every((words) => words.every((word) => NUMBER.test(word))) && numbers.some((words) => words.length > 1)) {
+    return readSegments(numbers.map((words) => words.map(Number)), name);
+  }
+  return readDrawing(all, name);
 }
 
 /** The maze as a maze file: straight lines of wall cells, along a row unless the one along the column is longer. */
@@ -51,23 +67,39 @@ export function listOf({ walls, height, width, start, goal }) {
   return lines.join("\n") + "\n";
 }
 
+/** The lines of a text, with all blanks but tabs as spaces. */
+function linesOf(text) {
+  // deno-lint-ignore no-control-regex -- these end a line for Python, too
+  const lines = text.replaceAll("\ufeff", "").split("\x1a")[0].split(/\r\n|[\n-\r\x1c-\x1e\x85\u2028\u2029]/);
+  // deno-lint-ignore no-control-regex
+  return lines.map((line) => line.replace(/[\x1f\p{Zs}]/gu, " "));
+}
+
+function splitWords(line) {
+  return line.split(/[ \t]+/).filter((word) => word);
+}
+
 function readDrawing(lines, name) {
-  const rows = lines.map((line) => line.replace(OUTER_BLANKS, "")).filter((line) => line).map((line) => [...line]);
-  if (rows.length === 0) throw new InputError("the drawing of a maze must have at least one row; got none");
-  const height = rows.length, width = rows[0].length;
+  const drawn = [...lines.keys()].filter((i) => lines[i].trim());
+  if (drawn.length === 0) throw new InputError("the drawing of a maze must have at least one row; got none");
+  const height = drawn.length;
+  let rows = drawn.map((i) => [...lines[i].trim()]);
+  rows.forEach((row, i) => {
+    const unknown = row.find((character) => !SYMBOLS.has(character));
+    if (unknown !== undefined) {
+      throw new InputError(
+        "a maze must be a drawing in . 0 or blanks (open), # 1 X + - | or blocks (wall), S 2 (start) and G E 3 " +
+          `(goal), or a list that gives its size, or line segments; got ${shown(unknown)} in row ${i + 1}`,
+      );
+    }
+  });
+  if (rows.some((row) => row.includes(" "))) rows = rowsWithBlanks(lines, drawn);
+  const width = rows[0].length;
   rows.forEach((row, i) => {
     if (row.length !== width) {
       throw new InputError(
         `the drawing of a maze must be a rectangle; got ${row.length} cells wide in row ${i + 1}, ${width} in row 1`,
       );
-    }
-    for (const character of row) {
-      if (!SYMBOLS.has(character)) {
-        const symbols = [...SYMBOLS.keys()].join(" ");
-        throw new InputError(
-          `the drawing of a maze must use only ${symbols}; got ${shown(character)} in row ${i + 1}`,
-        );
-      }
     }
   });
   const cells = rows.flat().map((character) => SYMBOLS.get(character));
@@ -77,12 +109,39 @@ function readDrawing(lines, name) {
     const cell = cells.indexOf(kind);
     return [Math.floor(cell / width), cell % width];
   });
-  checkSides(
-    height,
-    width,
-    () => `the drawing of a maze must be 1 to ${LONGEST_SIDE} cells a side; got ${height},${width}`,
-  );
+  checkSides("the drawing of a maze", height, width);
   return makeMaze(cells.map((cell) => (cell === 1 ? 1 : 0)), height, width, ...ends, name);
+}
+
+/** The rows of a drawing in which blanks are open cells; `drawn` counts, from 0, its lines that are not blank. */
+function rowsWithBlanks(lines, drawn) {
+  let rows = drawn.map((i) => [...lines[i].trim()]);
+  const both = rows.findIndex((row) => row.includes(".") || row.includes("0"));
+  if (both >= 0) {
+    throw new InputError(
+      "the drawing of a maze must show open cells by blanks, or by . and 0; " +
+        `got blanks, and one of these in row ${both + 1}`,
+    );
+  }
+  const gap = drawn.findIndex((line, i) => line !== drawn[0] + i);
+  if (gap >= 0) {
+    throw new InputError(
+      "the drawing of a maze must have no blank line between its rows if blanks are open cells; " +
+        `got one in line ${drawn[gap - 1] + 2}`,
+    );
+  }
+  if (rows.every((row) => row.length === rows[0].length)) return rows;
+  const indent = least(drawn.map((i) => lines[i].length - lines[i].trimStart().length));
+  rows = drawn.map((i) => [...lines[i].trimEnd()].slice(indent));
+  const tabbed = rows.findIndex((row) => row.includes("\t"));
+  if (tabbed >= 0) {
+    throw new InputError(
+      "the drawing of a maze must be indented by the same tabs in all rows if blanks are open cells; " +
+        `got another in row ${tabbed + 1}`,
+    );
+  }
+  const width = -least(rows.map((row) => -row.length));
+  return rows.map((row) => [...row, ...Array(width - row.length).fill(" ")]);
 }
 
 function readList(wordsOfLines, name) {
@@ -100,7 +159,7 @@ function readList(wordsOfLines, name) {
       throw new InputError(`${key} must be followed by ${FOLLOWS[key]}; got something else in line ${i + 1}`);
     }
     const places = pairs.map((text) => readPair(text, key, i + 1));
-    if (key === "wall") wallLines.push([i + 1, ...places]);
+    if (key === "wall") wallLines.push([i + 1, places]);
     else if (key in single) throw new InputError(`${key} must be given once; got it again in line ${i + 1}`);
     else single[key] = places[0];
   });
@@ -108,10 +167,16 @@ function readList(wordsOfLines, name) {
     if (!(key in single)) throw new InputError(`a maze file must give the ${key}; got none`);
   }
   const [height, width] = single.size;
-  checkSides(height, width, () => `size must be 1 to ${LONGEST_SIDE} cells a side; got ${height},${width}`);
-  const walls = new Uint8Array(height * width);
-  for (const [number, first, last] of wallLines) layWall(walls, height, width, first, last, number);
-  return makeMaze(walls, height, width, single.start, single.goal, name);
+  checkSides("size", height, width);
+  for (const [number, places] of wallLines) {
+    const outside = places.find(([row, column]) => row >= height || column >= width);
+    if (outside) {
+      throw new InputError(
+        `wall must lie within the ${height} by ${width} cells; got ${outside} in line ${number}`,
+      );
+    }
+  }
+  return walledMaze(height, width, single.start, single.goal, wallLines.flatMap(([, places]) => places), name);
 }
 
 function readPair(text, key, number) {
@@ -121,24 +186,61 @@ function readPair(text, key, number) {
   return text.split(",").map(Number);
 }
 
-/** Make the cells from `first` to `last` wall, both included. */
-function layWall(walls, height, width, first, last, number) {
-  for (const [row, column] of [first, last]) {
-    if (row >= height || column >= width) {
-      throw new InputError(
-        `wall must lie within the ${height} by ${width} cells; got ${row},${column} in line ${number}`,
-      );
-    }
+/** The maze of line segments, given by the numbers of each line. */
+function readSegments(lines, name) {
+  const counts = lines.map((numbers) => numbers.length);
+  const before = Math.max(counts.indexOf(2), 0); // lines before the start
+  const after = before + (counts[before + 3] === 2 ? 4 : 3); // lines before the walls
+  const isInOrder = counts.every((count, i) => count === (i < before ? 1 : i < after ? [2, 1, 2, 2][i - before] : 4));
+  if (!isInOrder || before === 0 || lines.length < after) {
+    throw new InputError(
+      "line segments must be lines of 1, 2, 1, 2 and then 4 numbers: how many, start, heading, goal, the ends of " +
+        `each; got ${shown(counts)} numbers`,
+    );
   }
-  const down = last[0] - first[0], right = last[1] - first[1];
-  if (down && right && Math.abs(down) !== Math.abs(right)) {
-    throw new InputError(`wall must be horizontal, vertical or diagonal; got something else in line ${number}`);
+  const count = lines.length - after;
+  if (lines[before - 1][0] !== count) {
+    throw new InputError(`line segments must be as many as the line before the start says; got ${count}`);
   }
-  for (let i = 0; i <= Math.max(Math.abs(down), Math.abs(right)); i++) {
-    walls[(first[0] + Math.sign(down) * i) * width + first[1] + Math.sign(right) * i] = 1;
+  const walls = lines.slice(after).flatMap(([x, y, otherX, otherY]) => [[x, y], [otherX, otherY]]);
+  const points = [lines[before], lines[before + 2], ...walls];
+  const [left, top] = [0, 1].map((axis) => least(points.map((point) => point[axis])));
+  const [right, bottom] = [0, 1].map((axis) => -least(points.map((point) => -point[axis])));
+  const longer = Math.max(right - left, bottom - top) || 1; // or else all points are the same, and so in cell 0,0
+  const cellOf = ([x, y]) =>
+    [y - top, x - left].map((distance) => Math.floor((SEGMENTS_SIDE - 1) * distance / longer + 0.5));
+  const [start, goal, ...ends] = points.map(cellOf);
+  const [height, width] = cellOf([right, bottom]).map((last) => last + 1);
+  return walledMaze(height, width, start, goal, ends, name);
+}
+
+/** The maze with walls from cell to cell, given by both ends of each, one after the other. */
+function walledMaze(height, width, start, goal, ends, name) {
+  const walls = new Uint8Array(height * width);
+  for (let i = 0; i < ends.length; i += 2) layWall(walls, width, ends[i], ends[i + 1]);
+  return makeMaze(walls, height, width, start, goal, name);
+}
+
+/** Make the cells wall whose inside the line between the centres of two cells crosses, these two included. */
+function layWall(walls, width, [row, column], [lastRow, lastColumn]) {
+  const down = Math.sign(lastRow - row), right = Math.sign(lastColumn - column);
+  const rows = Math.abs(lastRow - row), columns = Math.abs(lastColumn - column);
+  let i = 0, j = 0;
+  walls[row * width + column] = 1;
+  while (i !== rows || j !== columns) {
+    const side = (2 * i + 1) * columns - (2 * j + 1) * rows; // through which it leaves a cell: < 0 below, > 0 beside
+    if (side <= 0) i++;
+    if (side >= 0) j++;
+    walls[(row + i * down) * width + column + j * right] = 1;
   }
 }
 
-function checkSides(height, width, message) {
-  if (Math.min(height, width) < 1 || Math.max(height, width) > LONGEST_SIDE) throw new InputError(message());
+function checkSides(name, height, width) {
+  if (Math.min(height, width) < 1 || Math.max(height, width) > LONGEST_SIDE) {
+    throw new InputError(`${name} must be 1 to ${LONGEST_SIDE} cells a side; got ${height},${width}`);
+  }
+}
+
+function least(numbers) {
+  return numbers.reduce((a, b) => Math.min(a, b));
 }

@@ -3,7 +3,7 @@
 import { checkedInteger } from "./checks.js";
 import { download, labelled, make, makeButton, makeControls } from "./dom.js";
 import { drawingOf, LONGEST_SIDE, makeMaze } from "./maze.js";
-import { listOf, parseMaze } from "./maze_files.js";
+import { listOf, parseMaze, textOf } from "./maze_files.js";
 
 /** Fields for an empty maze. onmaze: called with it. */
 export function makeEmptyMazeForm(problem, onmaze) {
@@ -42,7 +42,7 @@ export function makeLoadFields(problem, textArea, onmaze) {
   const load = (text) => problem.attempt(() => onmaze(parseMaze(text)));
   const file = make("input", { type: "file", accept: ".maze,.txt,text/plain" });
   file.addEventListener("change", async () => {
-    if (file.files.length === 1) load(await file.files[0].text());
+    if (file.files.length === 1) load(textOf(new Uint8Array(await file.files[0].arrayBuffer())));
     file.value = "";
   });
   return [

@@ -12,7 +12,7 @@ import {
 } from "../../../safe/playground/javascript/engine.js";
 import { Evolution } from "../../../safe/playground/javascript/evolution.js";
 import { drawingOf, waysToGoal } from "../../../safe/playground/javascript/maze.js";
-import { listOf } from "../../../safe/playground/javascript/maze_files.js";
+import { listOf, textOf } from "../../../safe/playground/javascript/maze_files.js";
 
 const FUNCTIONS = {
   host: () => {
@@ -21,6 +21,7 @@ const FUNCTIONS = {
   },
   shown: ({ value }) => shown(value),
   parseMaze: ({ maze, name }) => parseMaze(maze, name),
+  readMaze: ({ bytes }) => parseMaze(textOf(Uint8Array.from(bytes))),
   writtenMaze: ({ maze }) => {
     const parsed = parseMaze(maze);
     return { drawing: drawingOf(parsed), list: listOf(parsed), ways: waysToGoal(parsed) };
