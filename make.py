@@ -64,6 +64,7 @@ def test():
     _run("ruff", "check", ".")
     _run("deno", "fmt", "--check")
     _run("deno", "lint")
+    _run("zizmor", "--offline", "--quiet", ".github")
     # before the tests, or else each of their processes would; the kernels that check bounds meanwhile on another core
     _check(_end(_start(*COMPILE), _start(*COMPILE, **BOUNDS_CHECKED)))
     _run("pytest", "--numprocesses", "auto", "--dist", "loadfile", "--no-loadscope-reorder")
