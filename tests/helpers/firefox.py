@@ -1,4 +1,4 @@
-"""Firefox for the tests, as Linux distributions package it. Without it, the tests that need it are skipped.
+"""Firefox for the tests, as Debian packages it. Without it, the tests that need it are skipped.
 
 Playwright drives only builds of Firefox made for it. This is a small client of WebDriver BiDi
 (https://w3c.github.io/webdriver-bidi/), the protocol that every Firefox speaks by itself.
@@ -14,8 +14,8 @@ import pytest
 
 from tests.helpers.browser import DESKTOP
 
-FIREFOX = shutil.which("firefox-esr") or shutil.which("firefox")
-PATIENCE = 6  # seconds to wait for anything, since a machine may be busy
+FIREFOX = shutil.which("firefox-esr")  # other systems may shut Firefox up in a box, where it sees no profile of ours
+PATIENCE = 60  # seconds to wait for anything, since a machine may be busy
 EVENTS = ["log.entryAdded", "network.beforeRequestSent", "network.responseCompleted"]
 
 needs_firefox = pytest.mark.skipif(FIREFOX is None, reason="no Firefox found: install Debian's firefox-esr")
