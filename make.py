@@ -200,7 +200,7 @@ def _end(*processes):
                 process.terminate()
                 process.wait()
     if is_interrupted:
-        sys.exit(128 + signal.SIGINT)
+        raise KeyboardInterrupt
     return next((process.returncode for process in processes if process.returncode), 0)
 
 
@@ -239,8 +239,11 @@ def main():
     os.environ["DENO_NO_UPDATE_CHECK"] = "1"
     os.chdir(Path(__file__).resolve().parent)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
-    for name in options.steps:
-        STEPS[name]()
+    try:
+        for name in options.steps:
+            STEPS[name]()
+    except KeyboardInterrupt:
+        sys.exit(128 + signal.SIGINT)
 
 
 if __name__ == "__main__":
