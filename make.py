@@ -41,7 +41,7 @@ def book():
     """everything from nothing: environment, every notebook, the book (RUNS=20 for a class)"""
     execute()
     _run(*BUILD)
-    print("The book: _build/html/index.html")
+    print("The book: _build/html/index.html", flush=True)
 
 
 def pdf():
@@ -52,9 +52,9 @@ def pdf():
     with log.open("w", encoding="utf-8") as file:
         code = _end(_start(*BUILD, "--builder", "pdflatex", stdout=file, stderr=subprocess.STDOUT))
     if code:
-        print(*log.read_text(encoding="utf-8", errors="replace").splitlines()[-30:], sep="\n")
-        sys.exit(code)
-    print("The book: _build/latex/safe.pdf")
+        print(*log.read_text(encoding="utf-8", errors="replace").splitlines()[-30:], sep="\n", flush=True)
+    _check(code)
+    print("The book: _build/latex/safe.pdf", flush=True)
 
 
 def test():
