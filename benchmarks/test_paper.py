@@ -3,7 +3,6 @@ straightforward version.
 """
 
 import os
-import resource
 import sys
 import time
 
@@ -37,8 +36,18 @@ def test_paper(benchmark, measure, sized, algorithm, maze):
         runs=RUNS,
     )
     benchmark.extra_info["core_seconds"] = time.process_time() - started
-    kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1024 if sys.platform == "darwin" else 1)
-    benchmark.extra_info["peak_megabytes"] = kilobytes / 1024
+    benchmark.extra_info["peak_megabytes"] = peak_megabytes()
+
+
+def peak_megabytes():
+    """The most memory that this process has used so far."""
+    if sys.platform == "win32":
+        import psutil  # comes with ipykernel
+
+        return psutil.Process().memory_info().peak_wset / 2**20
+    import resource  # Unix alone has it
+
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (2**20 if sys.platform == "darwin" else 2**10)
 
 
 @experiments

@@ -52,7 +52,7 @@ def stamp(notebook: Path, parameters: dict[str, object]) -> dict[str, object]:
     for file in sorted((ROOT / "safe").rglob("*")):
         is_hidden = file.name.startswith(".")
         if file.suffix in SUFFIXES and not is_hidden and "javascript" not in file.relative_to(ROOT).parts:
-            package.update(f"{file.relative_to(ROOT)}\0".encode() + file.read_bytes())
+            package.update(f"{file.relative_to(ROOT).as_posix()}\0".encode() + file.read_bytes())
     return {
         "notebook": hashlib.sha256(notebook.read_bytes()).hexdigest(),
         "package": package.hexdigest(),

@@ -24,7 +24,7 @@ def isolated() -> Iterator[None]:
     """Inside this context, kernels and other programs start in this interpreter, without the user's settings."""
     before = dict(os.environ)
     matplotlib = Path(find_spec("matplotlib").origin).parent  # not imported, since that would read its settings
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:  # Windows keeps what is open
         kernel = Path(folder, "kernels", "python3", "kernel.json")
         kernel.parent.mkdir(parents=True)
         command = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]

@@ -65,9 +65,12 @@ class ResultTables(SphinxTransform):
         self.document.note_explicit_target(table)
         TABLES.mkdir(exist_ok=True)
         file = TABLES / f"{name}.csv"
-        file.write_text(text, encoding="utf-8")
+        file.write_text(text, encoding="utf-8", newline="\n")
         link = addnodes.download_reference(
-            "", nodes.Text("this table as CSV"), reftarget=f"/{file.relative_to(ROOT)}", refdoc=self.env.docname
+            "",
+            nodes.Text("this table as CSV"),
+            reftarget=f"/{file.relative_to(ROOT).as_posix()}",
+            refdoc=self.env.docname,
         )
         return [table, nodes.paragraph("", "", link, classes=["results-download"])]
 

@@ -97,7 +97,8 @@ class _KernelCache(FunctionCache):
         function, *_, own = self._impl.filename_base.split("-")  # between them the line and the version of Python
         for file in Path(self.cache_path).glob(f"{glob.escape(function)}-*.nb[ci]"):
             if f"-{own}." not in file.name:
-                file.unlink(missing_ok=True)
+                with suppress(OSError):  # another process has removed it or, on Windows, is reading it
+                    file.unlink()
 
 
 @kernel

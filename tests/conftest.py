@@ -25,6 +25,7 @@ LAST = (
     "book/test_playground_drive_and_draw.py",
     "book/test_playground_runs_and_addresses.py",
     "book/test_playground_for_everybody.py",
+    "book/test_playground_in_firefox.py",
     "book/test_links.py",
     "book/test_bundled.py",
 )

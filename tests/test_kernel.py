@@ -126,8 +126,9 @@ def test_a_damaged_cache_is_made_again(tiny, tmp_path):
 
 
 def test_without_a_place_for_a_cache_kernels_are_compiled(tiny, tmp_path):
-    (tmp_path / "tiny" / "__pycache__").write_text("a file where numba would make a folder")
-    assert tiny(1, HOME="/dev/null", XDG_CACHE_HOME="/dev/null", LOCALAPPDATA="/dev/null") == 10
+    file = tmp_path / "tiny" / "__pycache__"
+    file.write_text("a file where numba would make a folder")
+    assert tiny(1, HOME=str(file), XDG_CACHE_HOME=str(file), LOCALAPPDATA=str(file)) == 10
 
 
 def test_a_full_disk_is_no_reason_not_to_run(monkeypatch):

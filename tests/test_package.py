@@ -75,6 +75,13 @@ def test_no_file_is_a_symbolic_link():
     assert [file for file in found if file.is_symlink()] == []
 
 
+def test_lines_end_alike_on_every_system():
+    """Digests of these files say which results are stale, and git would end lines on Windows in another way."""
+    data = ROOT / "tests" / "data"
+    texts = [file for file in files() if file.suffix != ".pdf" and data not in file.parents]
+    assert [file for file in texts if b"\r" in file.read_bytes()] == []
+
+
 def test_a_wheel_holds_the_javascript(wheel):
     assert contents(wheel / JAVASCRIPT) == contents(ROOT / JAVASCRIPT)
     assert (wheel / JAVASCRIPT / "engine.js").exists()

@@ -1,7 +1,9 @@
 import re
 from pathlib import Path
 
-README = (Path(__file__).parents[1] / "README.md").read_text()
+import make
+
+README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
 
 
 def test_the_python_of_the_readme_runs(tmp_path, monkeypatch, capsys):
@@ -16,10 +18,8 @@ def test_the_python_of_the_readme_runs(tmp_path, monkeypatch, capsys):
 
 def test_what_the_readme_names_is_there():
     root = Path(__file__).parents[1]
-    targets = re.findall(r"^make (\w+)", README, re.MULTILINE)
-    makefile = (root / "Makefile").read_text()
-    assert targets
-    for target in targets:
-        assert re.search(rf"^{target}:", makefile, re.MULTILINE), target
+    steps = re.findall(r"^make (\w+)|make\.py (\w+)", README, re.MULTILINE)
+    assert steps
+    assert {"".join(step) for step in steps} <= make.STEPS.keys()
     for file in re.findall(r"\]\(([^):]+)\)|(?<= )(notebooks/\S+\.ipynb)", README):
         assert (root / "".join(file)).exists(), file

@@ -10,7 +10,9 @@ import safe
 PACKAGE = Path(safe.__file__).parent
 FOUNDATIONS = ("version", "checks", "kernel")
 ROOMS = ("experiments", "results", "companion", "playground")
-FILES = {str(file.relative_to(PACKAGE)): file for file in PACKAGE.rglob("*.py") if file != PACKAGE / "__init__.py"}
+FILES = {
+    file.relative_to(PACKAGE).as_posix(): file for file in PACKAGE.rglob("*.py") if file != PACKAGE / "__init__.py"
+}
 
 
 def imported(file):

@@ -34,7 +34,7 @@ def prepare() -> None:
     shell = get_ipython()
     if shell is not None:
         formatter = shell.display_formatter.mimebundle_formatter
-        formatter.for_type(pd.DataFrame, lambda table, **_: {"text/csv": table.to_csv()})
+        formatter.for_type(pd.DataFrame, lambda table, **_: {"text/csv": table.to_csv(lineterminator="\n")})
 
 
 def show_table(table: pd.DataFrame, links: Sequence[Sequence[tuple[str, str]]], heading: str = "replay") -> None:

@@ -145,9 +145,10 @@ class Dispatcher:
         """The next future that is done."""
         while True:
             try:
-                future = self.returned.get(timeout=None if self.runs else BATCH_SECONDS)
+                future = self.returned.get(timeout=BATCH_SECONDS)  # on Windows, Ctrl-C is noticed only between waits
             except Empty:
-                self._send(MOST_IN_FLIGHT)  # runs are long, so each is a batch, and there should be one for every core
+                if not self.runs:
+                    self._send(MOST_IN_FLIGHT)  # runs are long: each is a batch, and there should be one for every core
             else:
                 if future is None:
                     raise KeyboardInterrupt

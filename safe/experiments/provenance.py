@@ -53,7 +53,8 @@ def _commit() -> str | None:
 
     def git(*arguments: str) -> str:
         command = ["git", "-C", str(_PACKAGE), *arguments]
-        return subprocess.run(command, capture_output=True, text=True, check=True, timeout=10).stdout.strip()
+        options = {"encoding": "utf-8", "errors": "replace", "timeout": 10}
+        return subprocess.run(command, capture_output=True, check=True, **options).stdout.strip()
 
     try:
         git("ls-files", "--error-unmatch", "__init__.py")  # fails if the package is merely installed inside a checkout

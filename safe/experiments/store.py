@@ -160,8 +160,8 @@ class Store:
         with self._store_errors():
             rows = self._connection.execute(
                 "SELECT id, digest, content, algorithm, maze FROM experiments"
-                " WHERE ?1 IS NULL OR digest = ?1 ORDER BY id",
-                (digest,),
+                " WHERE :digest IS NULL OR digest = :digest ORDER BY id",
+                {"digest": digest},
             ).fetchall()
         found = []
         for number, its_digest, text, *labels in rows:

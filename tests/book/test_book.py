@@ -19,7 +19,7 @@ from tests.helpers.checkout import ROOT, RUNS, build, execute, locked, output_of
 def pages(checkout):
     html = checkout / "_build" / "html"
     found = sorted(page for page in html.rglob("*.html") if "_static" not in page.parts)
-    return {str(page.relative_to(html)): page.read_text() for page in found}
+    return {page.relative_to(html).as_posix(): page.read_text() for page in found}
 
 
 def test_every_chapter_is_a_page(checkout, pages):

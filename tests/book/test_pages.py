@@ -11,7 +11,7 @@ from tests.helpers.browser import DESKTOP, PHONE, complaints_of, needs_browser
 
 @pytest.fixture(scope="module")
 def names(html):
-    return sorted(str(page.relative_to(html)) for page in html.rglob("*.html") if "_static" not in page.parts)
+    return sorted(page.relative_to(html).as_posix() for page in html.rglob("*.html") if "_static" not in page.parts)
 
 
 TABS = 8  # pages that load side by side

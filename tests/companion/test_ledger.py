@@ -159,7 +159,7 @@ def test_no_claim_rests_on_an_experiment_that_only_shares_a_name_with_the_papers
 
 def test_the_record_is_reproduced(results, repeats, tmp_path):
     file = tmp_path / "ledger.csv"
-    ledger.ledger(results, repeats).to_csv(file, float_format="%.4g")
+    ledger.ledger(results, repeats).to_csv(file, float_format="%.4g", lineterminator="\n")
     assert file.read_bytes() == ledger.RECORD.read_bytes()
 
 

@@ -155,6 +155,18 @@ def test_ctrl_c_while_the_last_batch_is_stored_is_not_forgotten(tmp_path, monkey
     assert interrupted.value.__notes__[0].startswith("1 of 1 runs are kept in")
 
 
+def test_no_wait_is_endless(monkeypatch):
+    """On Windows Ctrl-C is noticed only between waits, and a run may take hours."""
+
+    class Waits(dispatch.SimpleQueue):
+        def get(self, block=True, timeout=None):
+            assert timeout is not None
+            return super().get(block, timeout)
+
+    monkeypatch.setattr(dispatch, "SimpleQueue", Waits)
+    assert len(run(EXPERIMENT, progress=False)) == EXPERIMENT.runs
+
+
 def test_a_handler_of_the_callers_own_is_left_alone():
     def own(*_):
         raise InterruptedError

@@ -1,12 +1,11 @@
 """What a user sees while waiting, and where: in a terminal, not in a log."""
 
 import os
-import pty
 import subprocess
 import sys
-import termios
 
 import numba.core.event
+import pytest
 
 from safe.kernel import while_compiling
 
@@ -15,6 +14,8 @@ RUN = "import safe; safe.run(safe.Experiment('standard', 'maze1', runs=3, parame
 
 def seen_in_a_terminal(code, **environment):
     """What a Python program writes to stderr if that is a terminal."""
+    termios = pytest.importorskip("termios", reason="a program can be a terminal only on Unix")
+    pty = pytest.importorskip("pty")
     ours, theirs = pty.openpty()
     termios.tcsetwinsize(theirs, (24, 100))
     with subprocess.Popen([sys.executable, "-c", code], stderr=theirs, env=os.environ | environment):

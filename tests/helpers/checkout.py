@@ -1,11 +1,11 @@
 """A checkout of the repository for tests, in which they execute notebooks and build the book."""
 
-import fcntl
 import os
 import shutil
+import sqlite3
 import subprocess
 import sys
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -16,8 +16,8 @@ PARTS = ["_config.yml", "benchmarks", "book", "notebooks", "safe"]
 @contextmanager
 def locked(folder):
     """Keep all other processes that ask for it out of a folder, which need not exist yet."""
-    with folder.with_suffix(".lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    with closing(sqlite3.connect(folder.with_suffix(".lock"), timeout=3600)) as lock:  # locks files on every system
+        lock.execute("BEGIN EXCLUSIVE")
         yield
 
 

@@ -67,4 +67,4 @@ if __name__ == "__main__":
     }
     everything = results | repeats
     np.savez_compressed(FILE, **{key(e): stripped(e, runs) for e, runs in everything.items()})
-    ledger.ledger(results, repeats).to_csv(ledger.RECORD, float_format="%.4g")
+    ledger.ledger(results, repeats).to_csv(ledger.RECORD, float_format="%.4g", lineterminator="\n")
