@@ -10,7 +10,7 @@ from safe.experiments.exchange import merge, verify
 from safe.experiments.experiment import Experiment, run, run_all
 from safe.experiments.store import StoreError
 from safe.maze import Maze
-from safe.maze_files import load_maze
+from safe.maze_files import load_maze, parse_maze
 from safe.novelty import NoveltyArchive
 from safe.robot import endpoints, path
 from safe.version import __version__
@@ -31,6 +31,7 @@ __all__ = [
     "generations",
     "load_maze",
     "merge",
+    "parse_maze",
     "path",
     "run",
     "run_all",
