@@ -234,6 +234,8 @@ def main():
         if given is not None:
             os.environ[name] = given
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # many processes import the package: read what the first compiled
+    for name in ("PYTHONHOME", "PYTHONPATH"):  # packages of another Python
+        os.environ.pop(name, None)
     os.environ["PYTHONUTF8"] = "1"  # also on Windows
     os.environ["DENO_NO_UPDATE_CHECK"] = "1"
     os.chdir(Path(__file__).resolve().parent)
