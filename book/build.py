@@ -11,11 +11,9 @@ from __future__ import annotations
 import argparse
 import subprocess
 import sys
-from pathlib import Path
 
-from isolated import isolated
+from isolated import ROOT, isolated
 
-ROOT = Path(__file__).parent.parent
 BUILDERS = ("html", "latex", "pdflatex")  # latex: the sources of the PDF
 # its folder comes first: an installed package can have the name of an extension of the book, as PyTables has
 PROGRAM = "import sys; sys.path.insert(0, 'book'); from jupyter_book.cli.main import main; main()"

@@ -23,9 +23,9 @@ import papermill
 
 import safe
 from executed import EXECUTED, NOTEBOOKS, ROOT, STAMP, notebooks, requested_parameters, stamp, what_is_wrong
+from forked import fork_jupyters_kernels
 from isolated import isolated
-from kernels import fork_kernels
-from safe.companion.notebook import STORE
+from safe.companion.project import STORE
 
 SAMPLE = 5  # runs in it that are repeated at the end
 MUST_SHOW = {  # by a key in the metadata of a cell: what it stands for, and the output that shows it
@@ -111,7 +111,7 @@ def main() -> None:
     except ValueError as error:
         parser.error(str(error))
     with isolated():
-        fork_kernels()
+        fork_jupyters_kernels()
         _execute_all(chosen, parameters, bool(given))
     store = ROOT / (given.get("store") or STORE)
     if not options.names and store.exists():

@@ -20,10 +20,11 @@ from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 from sphinx.util.typing import ExtensionMetadata
 
-ROOT = Path(__file__).parent.parent
+from isolated import ROOT
+from safe.companion.project import MEASUREMENTS
+
 NOTEBOOKS = ROOT / "notebooks"
 EXECUTED = ROOT / "executed"
-MEASUREMENTS = ROOT / "benchmarks" / "results.json"
 DEPENDENCIES = ("numpy", "numba", "scipy", "statsmodels", "pandas", "matplotlib")
 SUFFIXES = (".py", ".csv", ".maze", ".mplstyle", ".html")  # of the package's files, unlike those of editors and systems
 STAMP = "executed_from"  # key in the metadata of an executed copy
@@ -56,7 +57,7 @@ def stamp(notebook: Path, parameters: dict[str, object]) -> dict[str, object]:
     return {
         "notebook": hashlib.sha256(notebook.read_bytes()).hexdigest(),
         "package": package.hexdigest(),
-        "measurements": hashlib.sha256(MEASUREMENTS.read_bytes()).hexdigest(),
+        "measurements": hashlib.sha256((ROOT / MEASUREMENTS).read_bytes()).hexdigest(),
         "packages": {"python": platform.python_version()} | {name: metadata.version(name) for name in DEPENDENCIES},
         "parameters": parameters,
     }

@@ -1,8 +1,8 @@
 """Helpers of the book's notebooks: the style of figures, tables with links, numbers for the prose, parameters read.
 
-A notebook runs wherever it is opened. A file that its parameters leave empty is the project's (see `project`). A
-relative path that they give is relative to the working directory: the shell's with papermill, and the notebook's folder
-in Jupyter.
+A notebook runs wherever it is opened. A file that its parameters leave empty is the project's (see
+`safe.companion.project`). A relative path that they give is relative to the working directory: the shell's with
+papermill, and the notebook's folder in Jupyter.
 """
 
 from __future__ import annotations
@@ -18,10 +18,8 @@ from IPython import get_ipython
 from IPython.display import display
 
 from safe import checks
+from safe.companion import project
 from safe.results import figures
-
-STORE = "results.sqlite"  # of the project
-PARTS = ("notebooks", "safe/companion")  # folders by which the project is known
 
 
 def prepare() -> None:
@@ -71,16 +69,6 @@ def export_numbers(table: pd.DataFrame) -> None:
     display({"application/json": numbers, "text/plain": f"{len(numbers)} numbers"}, raw=True)
 
 
-def project() -> Path | None:
-    """The folder of this project: the nearest one from the working directory upwards, or else the package's.
-
-    None if there is neither, which is so where the package alone was installed.
-    """
-    here, package = Path.cwd(), Path(__file__).parents[2]
-    folders = (here, *here.parents, package)
-    return next((folder for folder in folders if all((folder / part).is_dir() for part in PARTS)), None)
-
-
 def resources(store: str, scheduler: str, cores: int) -> dict[str, object]:
     """What the runs of a notebook need, as the keyword arguments of `safe.run_all`.
 
@@ -99,7 +87,7 @@ def resources(store: str, scheduler: str, cores: int) -> dict[str, object]:
         If `cores` is no integer of at least 0, or no scheduler answers.
     """
     return {
-        "store": (project() or Path.cwd()) / STORE if store == "" else store,
+        "store": (project.folder() or Path.cwd()) / project.STORE if store == "" else store,
         "cores": checks.integer("cores", cores, 0) or None,
         "executor": executor_at(scheduler),
     }

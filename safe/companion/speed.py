@@ -16,10 +16,9 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from safe import checks
-from safe.companion.notebook import project
+from safe.companion import project
 from safe.results.figures.style import FAINT, legend_below, plain
 
-RECORD = "benchmarks/results.json"  # in the project
 PARTS = (
     "robot",
     "novelty",
@@ -60,12 +59,13 @@ def read_measured(path: str | os.PathLike) -> tuple[pd.DataFrame, dict[str, str]
         If the file holds no measurements, or is that of a project that is not here.
     """
     if path == "":
-        folder = project()
+        folder = project.folder()
         if folder is None:
             raise ValueError(
-                f"measured must be the path of measurements; got '', for {RECORD} of the project, but there is none"
+                "measured must be the path of measurements; "
+                f"got '', for {project.MEASUREMENTS} of the project, but there is none"
             )
-        path = folder / RECORD
+        path = folder / project.MEASUREMENTS
     try:
         found = json.loads(Path(path).read_text(encoding="utf-8"))
         rows = [

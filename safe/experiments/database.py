@@ -5,9 +5,9 @@
     runs          one row for each finished run (see `Run`), with a checksum
 
 Opened for writing, a file is switched to WAL mode, so that several processes can read and write it at once, and gets
-the present layout. Reading changes neither the file nor its folder: an earlier layout is updated in memory alone, and a
-store that is read-only or somebody else's is read from a copy, since SQLite would put files beside it that lock its
-owner out.
+the present layout. Reading changes no run and no layout: an earlier one is updated in memory alone. A store that is
+read-only or somebody else's is read from a copy, since SQLite would put files beside it that lock its owner out. In a
+store of one's own a reader does what any last user of a file in WAL mode does: it moves what is in the log to the file.
 """
 
 from __future__ import annotations
@@ -156,7 +156,7 @@ def _beside(file: Path, ending: str) -> Path:
 
 
 def _may_write(place: Path) -> bool:
-    return os.access(place, os.W_OK, effective_ids=True)
+    return os.access(place, os.W_OK, effective_ids=os.access in os.supports_effective_ids)
 
 
 def _connect(database: str | Path, **options: object) -> sqlite3.Connection:
@@ -248,27 +248,25 @@ def _switch_to_wal(connection: sqlite3.Connection) -> None:
 
 
 def _mode_in_place(file: Path) -> str | None:
-    """The mode in which SQLite reads this file and leaves no trace; None if there is none.
+    """The mode in which SQLite may read this file itself; None if it must read a copy.
 
-    A file that this process itself has open for writing must be read so: whoever opens it by other means, as for a
-    copy, and closes it, cancels all of the process's locks on it (https://www.sqlite.org/howtocorrupt.html).
+    A file that this process itself has open for writing must not be copied: to open and close it by other means than
+    SQLite cancels all of the process's locks on it (https://www.sqlite.org/howtocorrupt.html).
     """
     if not _may_write(file):
         return None
     log, index, journal = (_beside(file, ending).exists() for ending in ("-wal", "-shm", "-journal"))
-    if log and index:  # somebody writes, or was killed
-        return "ro"
-    is_own = file.stat().st_uid == os.geteuid()
-    if is_own and _may_write(file.parent) and not (log or index or journal):  # they come, and go when it is closed
-        return "rw"
-    return None
+    is_own = not hasattr(os, "geteuid") or file.stat().st_uid == os.geteuid()
+    if is_own and _may_write(file.parent) and not journal:
+        return "rw"  # "ro" would leave the log to the next writer if the last one ends during the reading
+    return "ro" if log and index else None
 
 
 def _copy(file: Path) -> sqlite3.Connection:
     """A copy in memory of a store with its log, as of one moment although others may be writing, without any lock.
 
     The log is copied after the file: what is missing or half written in the copy of the file is then in that of the
-    log, unless the log was begun anew meanwhile.
+    log, unless the log was started again meanwhile.
     """
     deadline = time.monotonic() + _PATIENCE
     while time.monotonic() < deadline:
@@ -288,7 +286,7 @@ def _state(file: Path) -> list[object]:
     with suppress(FileNotFoundError):
         state.append(_stamp(_beside(file, "-journal")))
     with suppress(FileNotFoundError), _beside(file, "-wal").open("rb") as log:
-        state.append(log.read(32))  # its header, with a number that is drawn whenever it is begun
+        state.append(log.read(32))  # its header, with a number that is drawn whenever it starts
     return state
 
 

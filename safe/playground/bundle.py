@@ -25,6 +25,7 @@ _DECLARATION = re.compile(
     r"^(export\s+)?((?:async\s+)?function\b\s*\*?\s*|(?:const|let|class)\s+)([\w$]+)", re.MULTILINE
 )
 _COMMENT = re.compile(r"^[^\S\n]*(?://.*|/\*\*(?:(?!\*/).|\n)*\*/)\n", re.MULTILINE)  # that fills its lines
+_COMMENT_OF_A_LIST = re.compile(r"^#.*\n", re.MULTILINE)
 _OTHER_FORM = re.compile(r"^(?:import|export)\b.*|(?<![\w$.#])import\s*(?:\(|\.\s*meta\b).*", re.MULTILINE)
 
 # A worker is made from the text of the very function that makes it, so that it needs no address.
@@ -112,11 +113,10 @@ def _read_modules(folder: Path, entries: tuple[str, ...]) -> dict[str, _Module]:
 
 
 def _packaged_mazes() -> str:
-    """The module that holds the texts of the package's mazes by their names, without comments."""
-    texts = {
-        name: re.sub("#.*\n", "", (MAZE_FOLDER / f"{name}.maze").read_text(encoding="utf-8")) for name in maze_names()
-    }
-    return f"export const PACKAGED_MAZES = {json.dumps(texts)};\n"
+    """The module that holds the texts of the package's mazes by their names, without the comments of lists."""
+    texts = {name: (MAZE_FOLDER / f"{name}.maze").read_text(encoding="utf-8") for name in maze_names()}
+    lists = {name: _COMMENT_OF_A_LIST.sub("", text) for name, text in texts.items() if "\nsize " in text}
+    return f"export const PACKAGED_MAZES = {json.dumps(texts | lists)};\n"
 
 
 def _parse(text: str, file: str) -> _Module:

@@ -243,7 +243,7 @@ def book_of(monkeypatch):
 
     def book_of(checkout, name):
         executed = importlib.import_module("executed")
-        for constant in ("NOTEBOOKS", "EXECUTED", "MEASUREMENTS"):
+        for constant in ("NOTEBOOKS", "EXECUTED"):
             monkeypatch.setattr(executed, constant, checkout / getattr(executed, constant).relative_to(executed.ROOT))
         monkeypatch.setattr(executed, "ROOT", checkout)
         return importlib.import_module(name)
@@ -323,7 +323,7 @@ def test_the_users_settings_do_not_reach_a_notebook(checkout, tmp_path, monkeypa
     startup.write_text("raise SystemExit")
     style.write_text("font.size: 40")
     for name, value in {
-        "MPLBACKEND": "Agg",
+        "MPLBACKEND": "nonsense",
         "MATPLOTLIBRC": style,
         "IPYTHONDIR": tmp_path,
         "JUPYTER_PATH": tmp_path,

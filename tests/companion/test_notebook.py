@@ -1,9 +1,11 @@
+from pathlib import Path
+
 import pandas as pd
 import pytest
 from IPython.core.interactiveshell import InteractiveShell
 from IPython.utils.capture import capture_output
 
-from safe.companion import notebook
+from safe.companion import notebook, project
 
 
 @pytest.fixture
@@ -72,39 +74,10 @@ def test_texts_that_are_no_points(text):
         notebook.read_points(text)
 
 
-def folders(root, *names):
-    for name in names:
-        (root / name).mkdir(parents=True, exist_ok=True)
-
-
-@pytest.fixture
-def package(tmp_path, monkeypatch):
-    """The package, as if it were installed in a folder without a project."""
-    monkeypatch.setattr(notebook, "__file__", str(tmp_path / "installed/safe/companion/notebook.py"))
-    folders(tmp_path, "installed/safe/companion", "one/notebooks", "one/safe/companion", "home/notebooks", "home/safe")
-    return tmp_path
-
-
-@pytest.mark.parametrize(
-    ("opened", "found"),
-    [("one", "one"), ("one/notebooks", "one"), ("one/safe/companion", "one"), ("home/notebooks", None)],
-)
-def test_the_project_is_the_nearest_folder_that_holds_its_parts(package, monkeypatch, opened, found):
-    monkeypatch.chdir(package / opened)
-    assert notebook.project() == (found and package / found)
-
-
-def test_elsewhere_the_project_is_that_of_the_package(package, monkeypatch):
-    folders(package, "installed/notebooks", "home")
-    for opened, found in (("home", "installed"), ("one", "one")):
-        monkeypatch.chdir(package / opened)
-        assert notebook.project() == package / found
-
-
-def test_what_runs_need(package, monkeypatch):
-    monkeypatch.chdir(package / "one/notebooks")
-    resources = {"store": package / "one/results.sqlite", "executor": None, "cores": None}
+def test_what_runs_need(tmp_path, monkeypatch):
+    monkeypatch.setattr(project, "folder", lambda: tmp_path)
+    resources = {"store": tmp_path / "results.sqlite", "executor": None, "cores": None}
     assert notebook.resources("", "", 0) == resources
     assert notebook.resources("mine.sqlite", "", 3) == resources | {"store": "mine.sqlite", "cores": 3}
-    monkeypatch.chdir(package / "home")
-    assert notebook.resources("", "", 0)["store"] == package / "home/results.sqlite"
+    monkeypatch.setattr(project, "folder", lambda: None)
+    assert notebook.resources("", "", 0)["store"] == Path.cwd() / "results.sqlite"

@@ -5,29 +5,29 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 import pytest
 
-from safe.companion import speed
+from safe.companion import project, speed
 
 mpl.use("agg")
-RECORD = Path(__file__).parents[2] / "benchmarks" / "results.json"
+MEASUREMENTS = Path(__file__).parents[2] / project.MEASUREMENTS
 
 
 @pytest.fixture(scope="module")
 def measured():
-    return speed.read_measured(RECORD)[0]
+    return speed.read_measured(MEASUREMENTS)[0]
 
 
 def test_the_machine_is_described_without_its_users():
-    machine = speed.read_measured(RECORD)[1]
+    machine = speed.read_measured(MEASUREMENTS)[1]
     assert list(machine) == ["processor", "system", "packages", "measured"]
     assert all(machine.values())
-    assert not {"node", "user", "commit_info"} & json.loads(RECORD.read_text()).keys()
+    assert not {"node", "user", "commit_info"} & json.loads(MEASUREMENTS.read_text()).keys()
     assert "/" not in "".join(machine.values())
 
 
 def test_by_default_the_measurements_are_those_of_the_project(tmp_path, monkeypatch, measured):
     monkeypatch.chdir(tmp_path)
     assert speed.read_measured("")[0].equals(measured)
-    monkeypatch.setattr(speed, "project", lambda: None)
+    monkeypatch.setattr(project, "folder", lambda: None)
     with pytest.raises(
         ValueError, match=r"^measured must be .*; got '', for benchmarks/results.json of the project, but"
     ):

@@ -10,7 +10,7 @@ import papermill
 import pytest
 from IPython.core.inputtransformer2 import TransformerManager
 
-from safe.companion import notebook as helpers
+from safe.companion import project as files
 from tests.notebooks import NOTEBOOKS
 
 mpl.use("agg")
@@ -80,7 +80,7 @@ S...#....
 .#.###.#.
 ...#...#G
 """
-MEASURED = str(Path(__file__).parents[2] / "benchmarks" / "results.json")
+MEASURED = str(Path(__file__).parents[2] / files.MEASUREMENTS)
 SMALL = {"runs": 2, "repeats": 1, "row": 0, "column": 2, "paths": 2}
 
 
@@ -111,7 +111,7 @@ def store_by_default(request, tmp_path, monkeypatch):
     folder, *without = request.param.split(", ")
     if without:
         project, package = tmp_path / folder, tmp_path / "site-packages"
-    monkeypatch.setattr(helpers, "__file__", str(package / "safe/companion/notebook.py"))
+    monkeypatch.setattr(files, "__file__", str(package / "safe/companion/project.py"))
     monkeypatch.chdir(tmp_path / folder)
     return project / "results.sqlite"
 

@@ -1,12 +1,13 @@
-"""Kernels that start at once: forked from one process that has imported what the notebooks import.
+"""Kernels of Jupyter that start quickly: forked from a process that has imported what the book's notebooks import.
 
 A kernel spends most of its start on imports, the same for every notebook. So one process, this module as a program,
 imports once, and is forked for each kernel. A kernel still begins without variables, and nothing it does reaches
-another. In Jupyter's client a provisioner starts kernels; `fork_kernels` makes this one the default.
+another. In Jupyter's client a provisioner starts kernels; `fork_jupyters_kernels` makes this one the default.
 """
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import importlib
 import json
@@ -19,13 +20,14 @@ from pathlib import Path
 
 from jupyter_client.provisioning import KernelProvisionerFactory, LocalProvisioner
 
-ROOT = Path(__file__).parent.parent
+from isolated import ROOT
+
 IMPORTED = ("ipykernel.kernelapp", "safe.companion.ledger", "safe.companion.notebook", "safe.playground.widget")
 BACKEND = "module://matplotlib_inline.backend_inline"  # a kernel would name it before matplotlib is imported
 
 
-def fork_kernels() -> None:
-    """Let kernels that this process starts be forked, where that is safe: some libraries of macOS cannot be."""
+def fork_jupyters_kernels() -> None:
+    """Let kernels that this process starts be forked, on Linux, where that is safe: some libraries of macOS are not."""
     if sys.platform == "linux":
         factory = KernelProvisionerFactory.instance()
         factory.provisioners["forked"] = EntryPoint("forked", f"{__name__}:ForkedKernel", factory.GROUP_NAME)
@@ -77,6 +79,9 @@ class _Process:
 @functools.cache
 def _server() -> subprocess.Popen:
     """The process to fork, which ends with this one, as its standard input does."""
+    from safe.evolution import compile_kernels
+
+    compile_kernels()  # where people see how far it is, and before it would start threads in the process to fork
     return subprocess.Popen(
         [sys.executable, __file__], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8"
     )
@@ -85,20 +90,24 @@ def _server() -> subprocess.Popen:
 def _ask(order: dict[str, object]) -> int:
     """Have a kernel started; gives the number of its process."""
     server = _server()
-    server.stdin.write(json.dumps(order) + "\n")
-    server.stdin.flush()
-    return int(server.stdout.readline())
+    with contextlib.suppress(BrokenPipeError):
+        server.stdin.write(json.dumps(order) + "\n")
+        server.stdin.flush()
+    answer = server.stdout.readline()
+    if not answer:
+        raise RuntimeError("the process that is forked for kernels has ended")
+    return int(answer)
 
 
 def serve() -> None:
     """Answer each order, a line of JSON, with the number of a process that has become a kernel."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the program that gives the orders
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # or else kernels that have ended would seem to live
-    sys.path[0] = str(ROOT)
+    sys.path[0] = str(ROOT)  # where `safe` is, if this is not the checkout that is installed
     os.environ["MPLBACKEND"] = BACKEND
     for name in IMPORTED:
         importlib.import_module(name)
-    sys.modules["safe.evolution"].compile_kernels()
+    importlib.import_module("safe.evolution").compile_kernels()  # which loads them from the disk
     for line in sys.stdin:
         number = os.fork()
         if number == 0:
@@ -109,6 +118,7 @@ def serve() -> None:
 
 def become_kernel(command: list[str], folder: str, environment: dict[str, str]) -> None:
     """Do what a new process that was started by this command would do, until it ends."""
+    import numpy as np
     from ipykernel import kernelapp
 
     os.setsid()
@@ -120,6 +130,7 @@ def become_kernel(command: list[str], folder: str, environment: dict[str, str]) 
     os.environ.clear()
     os.environ.update(environment)
     del sys.path[0]
+    np.random.seed()  # noqa: NPY002, or else all kernels would draw the same numbers
     sys.argv = [*command, f"--IPKernelApp.parent_handle={os.getppid()}"]  # a kernel ends when this process does
     kernelapp.launch_new_instance()
 
