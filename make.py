@@ -1,7 +1,7 @@
 """Make the book, or a part of it: `python make.py book`. Without a step, list all steps.
 
 This program needs Python 3.11 or later and nothing else, on Linux, macOS and Windows. The Makefile calls it, so that
-`make book` does the same. An older Python 3 can read it, too, and is told that it is too old.
+`make book` does the same. An older Python 3 can read it, too, and then says that it is too old.
 """
 
 import argparse

@@ -120,7 +120,7 @@ def main() -> None:
         except safe.StoreError as error:
             sys.exit(f"the stored results cannot be trusted: {error}")
         others = sum(same.sources != "same")
-        said = f", although {others} of them were made from other or unknown sources of the package" if others else ""
+        said = f", although {others} of them were made from other or unknown sources of the science" if others else ""
         print(f"{len(same)} stored runs, drawn at random, were repeated and gave the same results{said}", flush=True)
 
 

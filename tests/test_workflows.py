@@ -1,4 +1,4 @@
-"""What runs elsewhere: the workflows of GitHub, and Binder. They do what anybody can do by make.py."""
+"""What runs elsewhere: the workflows of GitHub, and Binder. Their work is done by make.py, which anybody can call."""
 
 import os
 import re

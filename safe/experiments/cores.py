@@ -41,7 +41,7 @@ def _without_quotas() -> int:
 def _quotas(system: Path) -> Iterator[int]:
     """The quotas of the control groups that hold this process, its own and those around it, in cores."""
     try:
-        memberships = (system / "proc/self/cgroup").read_text().splitlines()
+        memberships = (system / "proc/self/cgroup").read_text(errors="replace").splitlines()
     except OSError:  # not Linux
         return
     for membership in memberships:  # hierarchy:controllers:path, where version 2 has no controllers

@@ -67,7 +67,7 @@ def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, 
     """Make some of the runs in a store again, and compare them with the stored ones, to the last bit.
 
     The checksums of all runs are checked, too. Runs that follow earlier rules are left out. Runs that were made from
-    other sources of this package are repeated like the others, and marked.
+    other sources of the science are repeated like the others, and marked.
 
     Parameters
     ----------

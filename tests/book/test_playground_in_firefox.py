@@ -1,4 +1,4 @@
-"""The playground's main ways in Firefox, whose engine shares nothing with Chromium's.
+"""The playground's main uses in Firefox, whose engine shares nothing with Chromium's.
 
 All that it computes is compared with the package; the other tests of the page look closer, in Chromium.
 """
