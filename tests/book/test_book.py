@@ -387,7 +387,7 @@ def test_the_runner_refuses_what_it_does_not_know(checkout, book_of, monkeypatch
     ("sources", "said"),
     [
         (["same", "same", "same"], ""),
-        (["other", "same", "unknown"], ", although 2 of them were made from other or unknown sources of the package"),
+        (["other", "same", "unknown"], ", although 2 of them were made from other or unknown sources of the science"),
     ],
     ids=["same", "other"],
 )
