@@ -14,6 +14,7 @@ import numpy as np
 from safe import Maze, Parameters, Run
 from safe.algorithms import Algorithm
 from safe.evolution import GOAL, NOVELTY, Seed, Settings, State, breed_both, keep_best, run_so_far, start_run
+from safe.judges import UNRATED
 from safe.kernel import kernel
 from safe.maze import MazeArrays
 from safe.robot import READINGS
@@ -57,12 +58,12 @@ def drive(
             state.endpoints[i] = row, column
             state.distances[i] = distance
             state.components[GOAL, i] = 1.0 / distance if distance > 0 else 2.0
-        if settings.weigh_novelty:
+        if settings.weighed[NOVELTY]:
             rate(state.endpoints, archive, settings.k, True, state.components[NOVELTY])
         if judged:
             judge(state.components, state.objectives, state.fitness, state.winners)
         keep_best(state)
-        if settings.evolving:
+        if settings.rating != UNRATED:
             rate(state.objectives, objective_archive, settings.k, False, state.objective_fitness)
         if judged and state.best_distance[0] <= settings.success_distance:
             return

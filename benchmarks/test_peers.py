@@ -229,7 +229,7 @@ def run_in_python(maze, algorithm, seed, parameters):
     algorithm = safe.ALGORITHMS[algorithm]
     rng = np.random.Generator(np.random.SFC64(seed))
     drawing = maze.drawing().split("\n")
-    *_, (*_, best) = oracle.evolve(drawing, algorithm.objectives, algorithm.rating != "none", parameters, rng)
+    *_, (*_, best, _, _) = oracle.evolve(drawing, algorithm, parameters, rng)
     return best[0], tuple(best[1])
 
 

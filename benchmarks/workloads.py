@@ -22,10 +22,10 @@ from safe.evolution import (
     Settings,
     State,
     advance,
-    best_scores,
     start_run,
     step_through,
 )
+from safe.judges import Judges, best_scores
 from safe.kernel import kernel
 from safe.novelty import score_cells, score_points
 from safe.operators import breed, copy_genomes
@@ -111,19 +111,20 @@ def robot(state: State, settings: Settings, rng: np.random.Generator, run: Recor
 @kernel
 def novelty(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.endpoints)):
-        score_cells(run.endpoints[g], state.archive, state.occupancy, settings.k, state.components[NOVELTY])
+        score_cells(run.endpoints[g], state.archive, state.occupancy, settings.k, True, state.components[NOVELTY])
 
 
 @kernel
 def fitness(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.fitness)):
-        best_scores(run.components[g], run.objectives[g], state.fitness, state.winners)
+        best_scores(Judges(run.objectives[g], run.components[g]), state.fitness, state.winners)
 
 
 @kernel
 def breeding(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.genomes)):
-        breed(run.genomes[g], run.fitness[g], settings.breeding, rng, state.offspring)
+        judges = Judges(run.objectives[g], run.components[g])
+        breed(run.genomes[g], run.fitness[g], judges, settings.breeding, rng, state.offspring)
         copy_genomes(state.offspring, state.genomes)
 
 
@@ -136,7 +137,8 @@ def objective_functions(state: State, settings: Settings, rng: np.random.Generat
 @kernel
 def breeding_of_objective_functions(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.objectives)):
-        breed(run.objectives[g], run.objective_fitness[g], settings.objective_breeding, rng, state.objective_offspring)
+        judges, rates = Judges(run.objectives[g], run.components[g]), settings.objective_breeding
+        breed(run.objectives[g], run.objective_fitness[g], judges, rates, rng, state.objective_offspring)
         copy_genomes(state.objective_offspring, state.objectives)
 
 

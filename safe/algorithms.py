@@ -1,4 +1,4 @@
-"""The paper's algorithms and its Table 1, as data.
+"""The paper's algorithms and its Table 1, as data, and the choices beyond the paper.
 
 Every solution S_i is scored by every objective function O_j of a population of objective functions and takes the best
 score (Algorithm 1 of the paper). An objective function is a weighted sum of components,
@@ -12,21 +12,27 @@ and the algorithms differ only in who judges:
     fixed       the single [1/2, 1/2], which never changes
     safe        a population of random ones, bred by their genotypic novelty (Algorithm 2)
     random      nobody: there is nothing to select by, so every generation is drawn at random
+
+A choice has a name, and the paper's is the default:
+
+    who judges      `Algorithm`: `rating` and `scaling` (see `safe.judges`), `judging` (see `safe.operators`)
+    sizes, rules    `Parameters`: `admission` (see `safe.novelty`)
 """
 
 from __future__ import annotations
 
 import string
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 
 from safe import checks
-from safe.novelty import ARCHIVE_CAPACITY, K
+from safe.judges import RATINGS, SCALINGS
+from safe.novelty import ADMISSIONS, ARCHIVE_CAPACITY, K
+from safe.operators import JUDGINGS
 from safe.robot import STEPS
 
 COMPONENTS = ("1 / distance", "novelty")  # what an objective function weighs
 COEFFICIENTS = tuple(string.ascii_lowercase[: len(COMPONENTS)])  # the names of the components' coefficients: a, b
-RATINGS = ("none", "genotypic novelty")  # of objective functions; with "none" they never change
 
 
 @dataclass(frozen=True)
@@ -40,14 +46,21 @@ class Algorithm:
     objectives : sequence of (a, b), or None
         The coefficients of the objective functions of the first generation. None draws them uniformly from [0, 1],
         as many as `Parameters.objectives` says. With an empty sequence the algorithm is random search.
-    rating : {"none", "genotypic novelty"}
-        The fitness by which objective functions are bred in each generation. With "none" they never change.
+    rating : {"none", "genotypic novelty", "pearson", "spearman"}
+        The fitness by which objective functions are bred in each generation. With "none" they never change. The last
+        two are correlations, over the generation, of the scores that an objective function gives with minus the
+        distance to the goal.
+    scaling : {"raw", "maximum", "rank"}
+        What is weighed: the components as they are, divided by the generation's largest, or their ranks from 0 to 1.
+    judging : {"best score", "drawn judge"}
+        Who selects parents: the best of the scores that a solution gets from all objective functions, or for each
+        tournament one objective function, drawn uniformly.
 
     Raises
     ------
     ValueError
-        If an objective function does not have one finite coefficient for each component, if the rating is unknown,
-        or if objective functions that evolve are odd in number.
+        If an objective function does not have one finite coefficient for each component, if a choice is unknown, or
+        if objective functions that evolve are odd in number.
 
     Examples
     --------
@@ -58,10 +71,14 @@ class Algorithm:
     name: str
     objectives: Sequence[Sequence[float]] | None = None
     rating: str = "none"
+    scaling: str = "raw"
+    judging: str = "best score"
 
     def __post_init__(self) -> None:
         checks.text("name", self.name)
         checks.choice("rating", self.rating, RATINGS)
+        checks.choice("scaling", self.scaling, SCALINGS)
+        checks.choice("judging", self.judging, JUDGINGS)
         if self.objectives is None:
             return
         coefficients = checks.array("objectives", self.objectives, (None, len(COMPONENTS)), or_empty=True)
@@ -70,9 +87,25 @@ class Algorithm:
             raise ValueError(f"objectives must be even in number if they evolve; got {len(coefficients)}")
 
     @property
+    def content(self) -> dict:
+        """What the algorithm does, whatever its name, by field; choices only if they depart from the paper's.
+
+        Examples
+        --------
+        >>> Algorithm("mine", rating="pearson", judging="drawn judge").content
+        {'objectives': None, 'rating': 'pearson', 'judging': 'drawn judge'}
+        """
+        return {"objectives": self.objectives, "rating": self.rating, **_departures(self, ("scaling", "judging"))}
+
+    @property
     def is_random_search(self) -> bool:
         """Is there no objective function, and so nothing to select by?"""
         return self.objectives == ()
+
+
+def _departures(chosen: Algorithm | Parameters, names: Iterable[str]) -> dict[str, int | float | str]:
+    """The fields among these names whose values differ from the defaults, which are attributes of the class."""
+    return {name: value for name in names if (value := getattr(chosen, name)) != getattr(type(chosen), name)}
 
 
 ALGORITHMS = {
@@ -94,13 +127,13 @@ def get_algorithm(name: str | Algorithm) -> Algorithm:
 
 @dataclass(frozen=True)
 class Parameters:
-    """The paper's Table 1.
+    """The paper's Table 1, and the choices beyond it.
 
     Raises
     ------
     ValueError
-        If a size, count or rate is out of range. Offspring come in pairs, so a population and its elites must be
-        even in number.
+        If a size, count or rate is out of range, or a choice unknown. Offspring come in pairs, so a population and
+        its elites must be even in number.
 
     Examples
     --------
@@ -123,13 +156,20 @@ class Parameters:
     archive: int = ARCHIVE_CAPACITY  # places in each of the two novelty archives
     steps: int = STEPS  # that a robot takes
     success_distance: int = 2  # cells, taxicab: an end point this near to the goal is a success
+    # beyond the paper:
+    admission: str = "lowest replaced"  # what enters the archive of end points; or "random", or "threshold"
+    admitted: int = 5  # solutions that enter it in each generation, with "random"
+    threshold: float = 6.0  # novelty above which they enter it at first, with "threshold"; Lehman and Stanley's
 
     def __post_init__(self) -> None:
         lowest = {"elites": 0, "archive": 0, "success_distance": 0}
+        highest = {"crossover": 1, "mutation": 1}
         for field in fields(self):
             value = getattr(self, field.name)
-            if field.type == "float":
-                value = checks.probability(field.name, value)
+            if field.type == "str":
+                value = checks.choice(field.name, value, ADMISSIONS)
+            elif field.type == "float":
+                value = checks.number(field.name, value, 0, highest.get(field.name, checks.MOST))
             else:
                 value = checks.integer(field.name, value, lowest.get(field.name, 1), checks.MOST)
             object.__setattr__(self, field.name, value)
@@ -143,7 +183,7 @@ class Parameters:
             )
 
     @property
-    def departures(self) -> dict[str, int | float]:
+    def departures(self) -> dict[str, int | float | str]:
         """The parameters that differ from the paper's, by name.
 
         Examples
@@ -151,7 +191,7 @@ class Parameters:
         >>> Parameters(population=50, mutation=0.1).departures
         {'population': 50, 'mutation': 0.1}
         """
-        return {field.name: value for field in fields(self) if (value := getattr(self, field.name)) != field.default}
+        return _departures(self, [field.name for field in fields(self)])
 
     @property
     def evaluations(self) -> int:

@@ -51,11 +51,11 @@ def integer(name: str, value: object, low: int, high: int | None = None) -> int:
     return int(value)
 
 
-def probability(name: str, value: object) -> float:
-    """`value` as a float in [0, 1]."""
+def number(name: str, value: object, low: int, high: int) -> float:
+    """`value` as a float in [low, high]."""
     is_real = isinstance(value, Real) and not isinstance(value, bool)
-    if not is_real or not 0 <= value <= 1:
-        raise ValueError(f"{name} must be a number from 0 to 1; got {shown(value)}")
+    if not is_real or not low <= value <= high:
+        raise ValueError(f"{name} must be a number from {low} to {high}; got {shown(value)}")
     return float(value)
 
 

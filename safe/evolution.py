@@ -13,10 +13,18 @@ Algorithms differ in the population of objective functions that step 3 uses, and
 of step 6 take place (see `safe.algorithms`). Random search has no objective functions, and draws every generation at
 random.
 
+Each choice beyond the paper concerns one step: `admission`, of end points to the archive, and `scaling`, of components,
+belong to step 2 (`safe.novelty`, `safe.judges`); `rating` to step 5 (`safe.judges`); `judging` to step 6
+(`safe.operators`). A solution's fitness and winner, by which coefficients are reported, always follow Algorithm 1, also
+if a drawn judge selects the parents.
+
 All randomness of a run comes from one numpy.random.Generator(SFC64(seed)), and only from its method `random()`, in this
 order: the genes of the first solutions, one solution after the other; then, if objective functions are drawn, their
 genes, likewise; then, generation by generation, the breeding of the solutions and that of the objective functions (for
 the draws of a breeding see `safe.operators`). Random search draws the genes of every generation as those of the first.
+The draws of a choice follow those that the paper's rules make in the same step: with random admission, step 2 of every
+generation, the first and the last included, draws the index of each solution that enters the archive, if the archive
+has places and an objective function can weigh novelty; with a drawn judge, so do elites and tournaments in step 6.
 
 The loop exists once. Python steps through it (`generations`), to watch and to teach, or compiled code runs it to its
 end (`evolve`). Both call `advance`, and give the same run, bit for bit.
@@ -34,11 +42,33 @@ import numpy as np
 
 from safe import checks
 from safe.algorithms import COMPONENTS, Algorithm, Parameters, get_algorithm
+from safe.judges import (
+    GENOTYPIC_NOVELTY,
+    RATINGS,
+    RAW,
+    SCALINGS,
+    SPEARMAN,
+    UNRATED,
+    Judges,
+    best_scores,
+    correlations,
+    scale,
+)
 from safe.kernel import kernel, while_compiling
 from safe.maze import Maze, MazeArrays
 from safe.maze_files import load_maze
-from safe.novelty import ArchiveArrays, archived, empty_archive, empty_occupancy, score_cells, score_points
-from safe.operators import Breeding, breed, copy_genomes, draw_genomes
+from safe.novelty import (
+    ADMISSIONS,
+    LOWEST_REPLACED,
+    ArchiveArrays,
+    admit,
+    archived,
+    empty_archive,
+    empty_occupancy,
+    score_cells,
+    score_points,
+)
+from safe.operators import JUDGINGS, Breeding, breed, copy_genomes, draw_genomes
 from safe.robot import WEIGHTS, WalkSpace, walk_all, walk_space
 
 RULES = 1  # version of the rules, raised with every change that alters any run
@@ -69,9 +99,10 @@ class Generation(Run):
     genomes: np.ndarray  # float, (population, 16): p_1..p_16 of each solution
     endpoints: np.ndarray  # int, (population, 2): row and column
     distances: np.ndarray  # int, (population,): end point to goal, taxicab, in cells
-    components: np.ndarray  # float, (components, population); 0 for one that no objective function can weigh
+    components: np.ndarray  # float, (components, population), raw; novelty is 0 if no objective function can weigh it
+    scaled: np.ndarray | None  # float, likewise: what is weighed, or 0 if it cannot be; None if it is the components
     novelty: np.ndarray | None  # float, (population,); None if no objective function can weigh it
-    fitness: np.ndarray | None  # float, (population,); None in random search
+    fitness: np.ndarray | None  # float, (population,): the best scores, even with drawn judges; None in random search
     objectives: np.ndarray  # float, (objective functions, components): the coefficients of each
     objective_fitness: np.ndarray | None  # float, (objective functions,); None if they do not evolve
     winners: np.ndarray | None  # int, (population,): the objective function behind each solution's fitness
@@ -163,8 +194,11 @@ class Settings(NamedTuple):
     success_distance: int
     generations: int
     k: int
-    evolving: bool  # are objective functions rated and bred?
-    weigh_novelty: bool  # can any objective function ever weigh novelty?
+    admission: int  # to the archive of end points
+    admitted: int
+    scaling: int  # of components
+    rating: int  # of objective functions
+    weighed: tuple[bool, ...]  # of each component, can any objective function ever weigh it?
     breeding: Breeding  # of solutions
     objective_breeding: Breeding
 
@@ -176,10 +210,12 @@ class State(NamedTuple):
     endpoints: np.ndarray  # int64, (population, 2)
     distances: np.ndarray  # int64, (population,)
     components: np.ndarray  # float64, (components, population)
+    scaled: np.ndarray  # the components as they are weighed; the same array if that is as they are
     fitness: np.ndarray  # float64, (population,)
     winners: np.ndarray  # int64, (population,)
     archive: ArchiveArrays
     occupancy: np.ndarray  # int32: points of the archive in each cell, see `empty_occupancy`
+    threshold: np.ndarray  # float64, (2,): of admission by threshold, see `admit`
     objectives: np.ndarray  # float64, (objective functions, components)
     objective_fitness: np.ndarray  # float64, (objective functions,)
     objective_archive: ArchiveArrays
@@ -209,7 +245,7 @@ def start_run(
         draw_genomes(rng, 0.0, 1.0, objectives)
     else:
         objectives = np.array(algorithm.objectives, dtype=np.float64).reshape(-1, len(COMPONENTS))
-    evolving = algorithm.rating == "genotypic novelty"
+    evolving = algorithm.rating != "none"
     if evolving and parameters.elites >= len(objectives):
         raise ValueError(
             f"elites must be fewer than the {len(objectives)} objective functions; got {parameters.elites}"
@@ -221,21 +257,27 @@ def start_run(
         success_distance=parameters.success_distance,
         generations=parameters.generations,
         k=parameters.k,
-        evolving=evolving,
-        weigh_novelty=bool(evolving or objectives[:, NOVELTY].any()),
-        breeding=Breeding(*rates, low=-1.0, high=1.0),
+        admission=ADMISSIONS.index(parameters.admission),
+        admitted=parameters.admitted,
+        scaling=SCALINGS.index(algorithm.scaling),
+        rating=RATINGS.index(algorithm.rating),
+        weighed=tuple(bool(evolving or coefficients.any()) for coefficients in objectives.T),
+        breeding=Breeding(*rates, low=-1.0, high=1.0, judging=JUDGINGS.index(algorithm.judging)),
         objective_breeding=Breeding(*rates, low=0.0, high=1.0),
     )
     n, m = len(genomes), len(objectives)
+    components = np.zeros((len(COMPONENTS), n))
     state = State(
         genomes=genomes,
         endpoints=np.zeros((n, 2), dtype=np.int64),
         distances=np.zeros(n, dtype=np.int64),
-        components=np.zeros((len(COMPONENTS), n)),
+        components=components,
+        scaled=components if settings.scaling == RAW else np.zeros_like(components),
         fitness=np.zeros(n),
         winners=np.zeros(n, dtype=np.int64),
         archive=empty_archive(parameters.archive, 2),
         occupancy=empty_occupancy(maze.shape),
+        threshold=np.array([parameters.threshold, 0.0]),
         objectives=objectives,
         objective_fitness=np.zeros(m),
         objective_archive=empty_archive(parameters.archive, len(COMPONENTS)),
@@ -287,10 +329,11 @@ def step_through(state: State, settings: Settings, rng: np.random.Generator) -> 
             endpoints=state.endpoints.copy(),
             distances=state.distances.copy(),
             components=state.components.copy(),
-            novelty=state.components[NOVELTY].copy() if settings.weigh_novelty else None,
+            scaled=state.scaled.copy() if settings.scaling != RAW else None,
+            novelty=state.components[NOVELTY].copy() if settings.weighed[NOVELTY] else None,
             fitness=state.fitness.copy() if judged else None,
             objectives=state.objectives.copy(),
-            objective_fitness=state.objective_fitness.copy() if settings.evolving else None,
+            objective_fitness=state.objective_fitness.copy() if settings.rating != UNRATED else None,
             winners=state.winners.copy() if judged else None,
             archive=archived(state.archive),
             objective_archive=archived(state.objective_archive),
@@ -318,11 +361,14 @@ def advance(state: State, settings: Settings, rng: np.random.Generator) -> bool:
     if state.number[0] >= 0:
         breed_both(state, settings, rng)
     state.number[0] += 1
-    evaluate(state, settings)
+    evaluate(state, settings, rng)
     keep_best(state)
-    if settings.evolving:
+    if settings.rating == GENOTYPIC_NOVELTY:
         # Algorithm 2: the fitness of an objective function is the novelty of its genome
         score_points(state.objectives, state.objective_archive, settings.k, False, state.objective_fitness)
+    elif settings.rating != UNRATED:
+        judges = Judges(state.objectives, state.scaled)
+        correlations(judges, state.distances, settings.rating == SPEARMAN, state.objective_fitness)
     is_last = state.number[0] + 1 >= settings.generations
     # random search does not stop at a success: its result is the best of all solutions that it may draw
     has_succeeded = len(state.objectives) > 0 and state.best_distance[0] <= settings.success_distance
@@ -330,7 +376,7 @@ def advance(state: State, settings: Settings, rng: np.random.Generator) -> bool:
 
 
 @kernel
-def evaluate(state: State, settings: Settings) -> None:
+def evaluate(state: State, settings: Settings, rng: np.random.Generator) -> None:
     """Steps 1 to 3: end points, components, fitness."""
     walk_all(settings.maze, state.genomes, settings.steps, state.walk_space, state.endpoints)
     goal_row, goal_column = settings.maze.goal
@@ -339,52 +385,18 @@ def evaluate(state: State, settings: Settings) -> None:
         state.distances[i] = distance
         # at the goal itself 1 / distance is undefined: it counts as at distance 1/2
         state.components[GOAL, i] = 1.0 / distance if distance > 0 else 2.0
-    if settings.weigh_novelty:
-        score_cells(state.endpoints, state.archive, state.occupancy, settings.k, state.components[NOVELTY])
+    if settings.weighed[NOVELTY]:
+        novelty, is_papers = state.components[NOVELTY], settings.admission == LOWEST_REPLACED
+        score_cells(state.endpoints, state.archive, state.occupancy, settings.k, is_papers, novelty)
+        if not is_papers:
+            rule, admitted = settings.admission, settings.admitted
+            admit(state.endpoints, novelty, state.archive, state.occupancy, rule, admitted, state.threshold, rng)
+    if settings.scaling != RAW:
+        for c in range(len(state.components)):
+            if settings.weighed[c]:
+                scale(state.components[c], settings.scaling, state.scaled[c])
     if len(state.objectives) > 0:
-        best_scores(state.components, state.objectives, state.fitness, state.winners)
-
-
-@kernel
-def best_scores(components: np.ndarray, objectives: np.ndarray, fitness: np.ndarray, winners: np.ndarray) -> None:
-    """Algorithm 1: the fitness of S_i is max_j O_j(S_i), and the first such O_j is its winner.
-
-    Components are never negative, so an objective function whose coefficients are all at most those of an earlier one
-    cannot win. Leaving such dominated ones out leaves few of a random population.
-    """
-    contenders = np.empty(len(objectives), dtype=np.int64)
-    m = 0
-    for j in range(len(objectives)):
-        if not _is_dominated(objectives, j, contenders, m):
-            contenders[m] = j
-            m += 1
-    n = len(fitness)
-    scores = np.empty(n)
-    for i in range(n):
-        fitness[i] = -np.inf
-    for e in range(m):
-        j = contenders[e]
-        for i in range(n):
-            scores[i] = 0.0
-        for c in range(len(components)):  # O_j(S_i), Equation 1
-            for i in range(n):
-                scores[i] += objectives[j, c] * components[c, i]
-        for i in range(n):  # selects, not branches, so that the processor handles several solutions at once
-            is_better = scores[i] > fitness[i]
-            fitness[i] = scores[i] if is_better else fitness[i]
-            winners[i] = j if is_better else winners[i]
-
-
-@kernel
-def _is_dominated(objectives: np.ndarray, j: int, contenders: np.ndarray, m: int) -> bool:
-    """Does one of the first m contenders have coefficients that are all at least those of the j-th one?"""
-    for e in range(m):
-        exceeds = False
-        for c in range(objectives.shape[1]):
-            exceeds |= objectives[j, c] > objectives[contenders[e], c]
-        if not exceeds:
-            return True
-    return False
+        best_scores(Judges(state.objectives, state.scaled), state.fitness, state.winners)
 
 
 @kernel
@@ -406,8 +418,10 @@ def breed_both(state: State, settings: Settings, rng: np.random.Generator) -> No
     if len(state.objectives) == 0:
         draw_genomes(rng, settings.breeding.low, settings.breeding.high, state.genomes)
         return
-    breed(state.genomes, state.fitness, settings.breeding, rng, state.offspring)
+    judges = Judges(state.objectives, state.scaled)
+    breed(state.genomes, state.fitness, judges, settings.breeding, rng, state.offspring)
     copy_genomes(state.offspring, state.genomes)
-    if settings.evolving:
-        breed(state.objectives, state.objective_fitness, settings.objective_breeding, rng, state.objective_offspring)
+    if settings.rating != UNRATED:
+        rates, offspring = settings.objective_breeding, state.objective_offspring
+        breed(state.objectives, state.objective_fitness, judges, rates, rng, offspring)
         copy_genomes(state.objective_offspring, state.objectives)

@@ -11,6 +11,19 @@ score with which it entered.
 
 The same rule rates solutions, by the taxicab distance between end points, and objective functions, by the Euclidean
 distance between genomes (Section 6).
+
+For the archive of end points, there are two other rules of admission beside the paper's "lowest replaced". With both, a
+generation is scored against the population and the archive as it was before, nobody meets a point twice, and what
+enters, after all are scored, takes the place of the oldest if there is no other:
+
+    random      solutions drawn with replacement enter, in the order drawn; their number is a parameter
+    threshold   all whose novelty is above a threshold enter, in the order of the population (Lehman and Stanley, 2011).
+                The threshold, at first a parameter, rises by 20 % after a generation in which more than 4 enter, and
+                falls by 5 % after generations without an entry once they make 2500 evaluations, counted from the last
+                entry or fall
+
+Without places (a capacity of 0) nothing is drawn, enters or changes. The archive of objective functions always keeps
+the paper's rule.
 """
 
 from __future__ import annotations
@@ -27,6 +40,12 @@ from safe.neighbours import even_reach, grid_over, look_around, smallest, sort_i
 METRICS = ("taxicab", "euclidean")
 K = 15
 ARCHIVE_CAPACITY = 1000
+ADMISSIONS = ("lowest replaced", "random", "threshold")  # to the archive of end points
+LOWEST_REPLACED, RANDOM, THRESHOLD = range(len(ADMISSIONS))
+MOST_ENTRIES = 4  # in a generation: if more enter, the threshold rises
+RISE = 1.2
+MOST_IDLE = 2500  # evaluations without an entry: after them, the threshold falls
+FALL = 0.95
 RINGS = 24  # of cells searched around a point: searching more would cost more than measuring all distances
 MOST_DIMENSIONS = 1000  # of a point: an archive reserves memory for each
 
@@ -154,8 +173,10 @@ def archived(archive: ArchiveArrays) -> tuple[np.ndarray, np.ndarray]:
 
 
 @kernel
-def score_cells(cells: np.ndarray, archive: ArchiveArrays, occupancy: np.ndarray, k: int, scores: np.ndarray) -> None:
-    """Score cells (int64, (n, 2), row and column) by taxicab distance, in order, offering each to the archive.
+def score_cells(
+    cells: np.ndarray, archive: ArchiveArrays, occupancy: np.ndarray, k: int, offering: bool, scores: np.ndarray
+) -> None:
+    """Score cells (int64, (n, 2), row and column) by taxicab distance, in order, offering each to the archive or none.
 
     `occupancy` (see `empty_occupancy`) counts the archive's points in each cell, on entry and on return.
     """
@@ -163,7 +184,7 @@ def score_cells(cells: np.ndarray, archive: ArchiveArrays, occupancy: np.ndarray
     for i in range(n):
         occupancy[RINGS + cells[i, 0], RINGS + cells[i, 1]] += 1
     size = archive.counts[0]
-    threshold = threshold_of(archive)
+    threshold = threshold_of(archive) if offering else np.inf
     for i in range(n):
         row, column = cells[i, 0], cells[i, 1]
         wanted = min(k, n - 1 + size)
@@ -181,6 +202,49 @@ def score_cells(cells: np.ndarray, archive: ArchiveArrays, occupancy: np.ndarray
             threshold = threshold_of(archive)
     for i in range(n):
         occupancy[RINGS + cells[i, 0], RINGS + cells[i, 1]] -= 1
+
+
+@kernel
+def admit(
+    cells: np.ndarray,
+    scores: np.ndarray,
+    archive: ArchiveArrays,
+    occupancy: np.ndarray,
+    admission: int,
+    admitted: int,
+    threshold: np.ndarray,
+    rng: np.random.Generator,
+) -> None:
+    """Admit scored cells to the archive, by a rule other than the paper's; places are taken round and round.
+
+    `threshold` holds it, and the evaluations since the last entry or fall; both are changed in place.
+    """
+    points, archived_scores, entry, _, counts = archive
+    n, capacity, entered = len(cells), len(archived_scores), counts[1]
+    if capacity == 0:
+        return
+    for turn in range(admitted if admission == RANDOM else n):
+        i = int(rng.random() * n) if admission == RANDOM else turn
+        if admission == THRESHOLD and scores[i] <= threshold[0]:
+            continue
+        place = counts[1] % capacity
+        if place < counts[0]:  # the oldest leaves
+            occupancy[RINGS + int(points[0, place]), RINGS + int(points[1, place])] -= 1
+        occupancy[RINGS + cells[i, 0], RINGS + cells[i, 1]] += 1
+        points[0, place] = cells[i, 0]
+        points[1, place] = cells[i, 1]
+        archived_scores[place] = scores[i]
+        entry[place] = counts[1]
+        counts[1] += 1
+        counts[0] = min(counts[1], capacity)
+    if admission == THRESHOLD:
+        entries = counts[1] - entered
+        threshold[1] = 0 if entries > 0 else threshold[1] + n
+        if entries > MOST_ENTRIES:
+            threshold[0] *= RISE
+        elif threshold[1] >= MOST_IDLE:
+            threshold[0] *= FALL
+            threshold[1] = 0
 
 
 @kernel

@@ -6,6 +6,7 @@ from safe import ALGORITHMS, Algorithm, Parameters
 
 
 def test_the_papers_algorithms():
+    assert {(algorithm.scaling, algorithm.judging) for algorithm in ALGORITHMS.values()} == {("raw", "best score")}
     assert {name: (a.objectives, a.rating) for name, a in ALGORITHMS.items()} == {
         "standard": (((1.0, 0.0),), "none"),
         "novelty": (((0.0, 1.0),), "none"),
@@ -28,6 +29,9 @@ def test_the_papers_parameters():
         "archive": 1000,
         "steps": 300,
         "success_distance": 2,
+        "admission": "lowest replaced",
+        "admitted": 5,
+        "threshold": 6.0,
     }
 
 
@@ -35,7 +39,12 @@ def test_the_papers_parameters():
     ("arguments", "complaint"),
     [
         ({"name": ""}, "name must be a text of printable characters; got ''"),
-        ({"rating": "by taste"}, "rating must be one of 'none', 'genotypic novelty'; got 'by taste'"),
+        (
+            {"rating": "by taste"},
+            "rating must be one of 'none', 'genotypic novelty', 'pearson', 'spearman'; got 'by taste'",
+        ),
+        ({"scaling": "log"}, "scaling must be one of 'raw', 'maximum', 'rank'; got 'log'"),
+        ({"judging": None}, "judging must be one of 'best score', 'drawn judge'; got None"),
         ({"objectives": [(1, 0, 0)]}, r"objectives must have the shape \(any, 2\); got shape \(1, 3\)"),
         ({"objectives": (1, 0)}, r"objectives must have the shape \(any, 2\); got shape \(2,\)"),
         ({"objectives": [(1, float("inf"))]}, "objectives must be finite"),
@@ -44,10 +53,7 @@ def test_the_papers_parameters():
             {"objectives": [(1, 0)] * 3, "rating": "genotypic novelty"},
             "objectives must be even in number if they evolve; got 3",
         ),
-        (
-            {"objectives": [], "rating": "genotypic novelty"},
-            "objectives must be even in number if they evolve; got 0",
-        ),
+        ({"objectives": [], "rating": "spearman"}, "objectives must be even in number if they evolve; got 0"),
         ({"objectives": 7}, "objectives must"),
     ],
 )
@@ -74,6 +80,9 @@ def test_bad_parameters(name, value):
         ({"generations": 0}, "generations must be an integer from 1"),
         ({"crossover": 1.01}, "crossover must be a number from 0 to 1; got 1.01"),
         ({"steps": 1.5}, "steps must be an integer from 1 to 1000000; got 1.5"),
+        ({"admission": "all"}, "admission must be one of 'lowest replaced', 'random', 'threshold'; got 'all'"),
+        ({"admitted": 0}, "admitted must be an integer from 1 to 1000000; got 0"),
+        ({"threshold": 1e7}, "threshold must be a number from 0 to 1000000; got 10000000.0"),
     ],
 )
 def test_bad_values(arguments, complaint):

@@ -6,7 +6,9 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-KERNEL_TESTS = [f"tests/test_{name}.py" for name in ("robot", "neighbours", "novelty", "operators", "evolution")]
+KERNEL_TESTS = [
+    f"tests/test_{name}.py" for name in ("robot", "neighbours", "novelty", "judges", "operators", "evolution")
+]
 
 
 def test_kernels_with_bounds_checking():

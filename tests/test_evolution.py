@@ -1,6 +1,7 @@
 import itertools
 import json
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,30 +11,60 @@ from hypothesis import strategies as st
 import safe
 from safe import Algorithm, Parameters, evolve, generations
 from safe.evolution import RULES
+from safe.judges import RATINGS, SCALINGS
+from safe.novelty import ADMISSIONS
+from safe.operators import JUDGINGS
 from tests.helpers import oracle
-from tests.helpers.golden import FILE, golden_runs, outcome
+from tests.helpers.golden import FILE, golden_choices, golden_runs, outcome
 from tests.helpers.strategies import mazes
 
 SMALL = Parameters(population=20, objectives=10, generations=12, archive=60, k=4, steps=40)
-EVOLVING = [name for name in safe.ALGORITHMS if name != "random"]
+EVOLVING = [algorithm for algorithm in safe.ALGORITHMS.values() if not algorithm.is_random_search]
+CHOICES = st.builds(
+    Algorithm,
+    st.just("mine"),
+    st.none() | st.lists(st.tuples(*[st.sampled_from([-0.5, 0.0, 0.25, 1.0])] * 2), min_size=4, max_size=4),
+    st.sampled_from(RATINGS),
+    st.sampled_from(SCALINGS),
+    st.sampled_from(JUDGINGS),
+)
+ADMITTING = st.builds(
+    replace,
+    st.just(SMALL),
+    archive=st.sampled_from([0, 7, 60]),
+    admission=st.sampled_from(ADMISSIONS),
+    admitted=st.integers(1, 5),
+    threshold=st.floats(0, 3),
+)
 
 
-def test_golden_runs():
+@pytest.mark.parametrize(("kind", "which"), [("runs", golden_runs), ("choices", golden_choices)])
+def test_golden_runs(kind, which):
     golden = json.loads(FILE.read_text())
     assert golden["rules"] == RULES
-    assert [{key: run[key] for key in ("algorithm", "maze", "seed")} for run in golden["runs"]] == list(golden_runs())
-    for run in golden["runs"]:
-        assert outcome(run["algorithm"], run["maze"], run["seed"]) == run["outcome"], run
+    outcomes = [run.pop("outcome") for run in golden[kind]]
+    assert golden[kind] == list(which())
+    for run, expected in zip(golden[kind], outcomes, strict=True):
+        assert outcome(**run) == expected, run
 
 
 @settings(max_examples=25)
-@given(mazes(), st.sampled_from(EVOLVING), st.integers(0, 2**64))
-def test_a_run_is_that_of_the_oracle_generation_by_generation(maze, name, seed):
-    algorithm = safe.ALGORITHMS[name]
+@given(mazes(), st.sampled_from(EVOLVING), st.just(SMALL), st.integers(0, 2**64))
+def test_a_run_is_that_of_the_oracle_generation_by_generation(maze, algorithm, parameters, seed):
+    assert_run_of_the_oracle(maze, algorithm, parameters, seed)
+
+
+@settings(max_examples=60)
+@given(mazes(), CHOICES, ADMITTING, st.integers(0, 2**64))
+def test_a_run_with_choices_is_that_of_the_oracle(maze, algorithm, parameters, seed):
+    assert_run_of_the_oracle(maze, algorithm, parameters, seed)
+
+
+def assert_run_of_the_oracle(maze, algorithm, parameters, seed):
     rng = np.random.Generator(np.random.SFC64(seed))
-    expected = oracle.evolve(maze.drawing().split("\n"), algorithm.objectives, algorithm.rating != "none", SMALL, rng)
-    for got, (solutions, ends, fitness, objectives, best) in itertools.zip_longest(
-        generations(maze, algorithm, seed, SMALL), expected
+    expected = oracle.evolve(maze.drawing().split("\n"), algorithm, parameters, rng)
+    for got, (solutions, ends, fitness, objectives, best, objective_fitness, archive) in itertools.zip_longest(
+        generations(maze, algorithm, seed, parameters), expected
     ):
         assert got.genomes.tolist() == solutions
         assert got.endpoints.tolist() == [list(end) for end in ends]
@@ -44,6 +75,9 @@ def test_a_run_is_that_of_the_oracle_generation_by_generation(maze, name, seed):
             tuple(best[1]),
             tuple(map(float, best[2])),
         )
+        assert [list(point) for _, _, point in archive.members] == got.archive[0].tolist()
+        if algorithm.rating in ("pearson", "spearman"):
+            assert got.objective_fitness.tolist() == objective_fitness
 
 
 @pytest.mark.parametrize("maze", ["maze1", "maze2"])
@@ -190,6 +224,31 @@ def test_at_the_goal_the_component_is_two():
 def test_bad_arguments(function, arguments, complaint):
     with pytest.raises(ValueError, match=complaint):
         function(**{"maze": "maze1", "algorithm": "safe", "seed": 0, **arguments})
+
+
+@pytest.mark.parametrize("scaling", SCALINGS)
+@pytest.mark.parametrize("name", ["novelty", "safe"])
+def test_scaled_components_are_what_is_weighed(name, scaling):
+    algorithm = replace(safe.ALGORITHMS[name], scaling=scaling)
+    for generation in safe.generations("maze1", algorithm, 3, safe.Parameters(generations=3)):
+        assert (generation.scaled is None) == (scaling == "raw")
+        weighed = generation.components if generation.scaled is None else generation.scaled
+        winners = generation.objectives[generation.winners].T
+        assert (0 + winners[0] * weighed[0] + winners[1] * weighed[1] == generation.fitness).all()
+        if scaling != "raw":
+            assert weighed[1].max() == 1
+            assert weighed[0].any() == (name == "safe")  # nobody can weigh it in novelty search
+            assert (np.argsort(weighed[1], kind="stable") == np.argsort(generation.novelty, kind="stable")).all()
+
+
+def test_without_an_archive_its_admission_is_no_choice():
+    runs = {evolve("maze1", "novelty", 1, replace(SMALL, archive=0, admission=admission)) for admission in ADMISSIONS}
+    assert len(runs) == 1
+
+
+def test_where_novelty_is_not_weighed_nothing_is_drawn_for_its_archive():
+    runs = {evolve("maze1", "standard", 1, replace(SMALL, admission=admission)) for admission in ADMISSIONS}
+    assert len(runs) == 1
 
 
 @pytest.mark.parametrize("algorithm", ["standard", "novelty", "safe", "fixed"])

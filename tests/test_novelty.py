@@ -7,12 +7,28 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from safe import NoveltyArchive
-from safe.novelty import RINGS, archived, empty_archive, empty_occupancy, score_cells
+from safe.novelty import (
+    RANDOM,
+    RINGS,
+    THRESHOLD,
+    admit,
+    archived,
+    empty_archive,
+    empty_occupancy,
+    score_cells,
+)
 from tests.helpers import oracle
 from tests.helpers.strategies import generations_of_points
 
 DATA = Path(__file__).parent / "data"
 DISTANCES = {"taxicab": oracle.taxicab, "euclidean": oracle.euclidean}
+GENERATIONS_OF_CELLS = st.lists(
+    hnp.arrays(np.int64, st.tuples(st.integers(0, 9), st.just(2)), elements=st.integers(0, 7)), max_size=6
+)
+
+
+def generator(seed):
+    return np.random.Generator(np.random.SFC64(seed))
 
 
 @pytest.mark.parametrize(
@@ -34,27 +50,28 @@ def test_every_reference_score_by_counting_cells():
     archive, occupancy = empty_archive(1000, 2), empty_occupancy((100, 100))
     for cells, scores in zip(generations, expected, strict=True):
         got = np.empty(len(cells))
-        score_cells(cells, archive, occupancy, 15, got)
+        score_cells(cells, archive, occupancy, 15, True, got)
         np.testing.assert_allclose(got, scores, rtol=0, atol=1e-12)
 
 
-@given(
-    st.lists(hnp.arrays(np.int64, st.tuples(st.integers(0, 9), st.just(2)), elements=st.integers(0, 7)), max_size=6),
-    st.integers(0, 12),
-    st.integers(1, 20),
-)
+def occupied(archive):
+    """What `score_cells` and admissions must leave in the occupancy."""
+    expected = empty_occupancy((8, 8))
+    np.add.at(expected, tuple(archived(archive)[0].astype(int).T + RINGS), 1)
+    return expected
+
+
+@given(GENERATIONS_OF_CELLS, st.integers(0, 12), st.integers(1, 20))
 def test_counting_cells_gives_the_scores_and_the_archive_of_measuring_points(generations, capacity, k):
     points, cells = NoveltyArchive(capacity, k), empty_archive(capacity, 2)
     occupancy = empty_occupancy((8, 8))
     for generation in generations:
         scores = np.empty(len(generation))
-        score_cells(generation, cells, occupancy, k, scores)
+        score_cells(generation, cells, occupancy, k, True, scores)
         assert scores.tolist() == points.score(generation).tolist()
         assert archived(cells)[0].tolist() == points.points.tolist() or len(points) == 0
         assert archived(cells)[1].tolist() == points.scores.tolist()
-        expected = np.zeros_like(occupancy)
-        np.add.at(expected, tuple(archived(cells)[0].astype(int).T + RINGS), 1)
-        assert (occupancy == expected).all()
+        assert (occupancy == occupied(cells)).all()
 
 
 @given(generations_of_points(), st.integers(0, 12), st.integers(1, 20), st.sampled_from(sorted(DISTANCES)))
@@ -72,13 +89,78 @@ def test_scores_and_archive_are_those_of_the_oracle(generations, capacity, k, me
         expected.entered = len(expected.members)
 
 
+@given(
+    GENERATIONS_OF_CELLS.map(lambda generations: [cells for cells in generations if len(cells)]),
+    st.integers(0, 12),
+    st.integers(1, 20),
+    st.integers(1, 15) | st.floats(0, 4),
+)
+def test_admission_at_random_or_by_threshold_is_that_of_the_oracle(generations, capacity, k, admitted_or_threshold):
+    archive, expected, occupancy = empty_archive(capacity, 2), oracle.Archive(capacity), empty_occupancy((8, 8))
+    rng, twin = generator(k), generator(k)
+    threshold, expected_threshold = np.array([admitted_or_threshold, 0.0]), oracle.Threshold(admitted_or_threshold)
+    for cells in generations:
+        scores = np.empty(len(cells))
+        score_cells(cells, archive, occupancy, k, False, scores)
+        assert scores.tolist() == oracle.novelty(cells.tolist(), expected, k, oracle.taxicab, offering=False)
+        if isinstance(admitted_or_threshold, int):
+            admit(cells, scores, archive, occupancy, RANDOM, admitted_or_threshold, threshold, rng)
+            oracle.admit_drawn(cells.tolist(), scores.tolist(), expected, admitted_or_threshold, twin)
+        else:
+            admit(cells, scores, archive, occupancy, THRESHOLD, 5, threshold, rng)
+            expected_threshold.admit(cells.tolist(), scores.tolist(), expected)
+        points, kept = archived(archive)
+        assert points.tolist() == [point for _, _, point in expected.members]
+        assert kept.tolist() == [score for score, _, _ in expected.members]
+        assert (occupancy == occupied(archive)).all()
+        assert threshold.tolist() == [expected_threshold.value, expected_threshold.idle]
+    assert rng.random() == twin.random()
+
+
+@given(st.integers(1, 30), st.integers(1, 9), st.lists(st.integers(1, 9), min_size=1, max_size=5))
+def test_random_admission_keeps_the_newest(capacity, n, admitted):
+    archive, occupancy, rng, twin = empty_archive(capacity, 2), empty_occupancy((90, 90)), generator(n), generator(n)
+    entered = []
+    for g, count in enumerate(admitted):
+        cells = np.stack([np.arange(n), np.full(n, g)], axis=1)
+        admit(cells, np.zeros(n), archive, occupancy, RANDOM, count, np.zeros(2), rng)
+        entered += [[int(twin.random() * n), g] for _ in range(count)]
+    assert archived(archive)[0].tolist() == entered[-capacity:]
+
+
+@given(st.integers(1, 400), st.lists(st.integers(0, 7), max_size=40))
+def test_the_threshold_rises_and_falls(population, entries):
+    archive, occupancy = empty_archive(5, 2), empty_occupancy((8, 8))
+    cells, threshold, expected, idle = np.zeros((population, 2), dtype=np.int64), np.array([3.0, 0.0]), 3.0, 0
+    for entering in entries:
+        scores = np.where(np.arange(population) < entering, np.nextafter(expected, np.inf), expected)
+        admit(cells, scores, archive, occupancy, THRESHOLD, 5, threshold, generator(0))
+        idle = 0 if entering else idle + population
+        if min(entering, population) > 4:
+            expected *= 1.2
+        if idle >= 2500:
+            expected, idle = expected * 0.95, 0
+        assert threshold[0] == expected
+
+
+@pytest.mark.parametrize("admission", [RANDOM, THRESHOLD])
+def test_without_places_no_rule_of_admission_does_anything(admission):
+    cells, archive, occupancy = np.zeros((9, 2), dtype=np.int64), empty_archive(0, 2), empty_occupancy((8, 8))
+    rng, threshold = generator(1), np.array([0.5, 0.0])
+    admit(cells, np.ones(9), archive, occupancy, admission, 5, threshold, rng)
+    assert rng.random() == generator(1).random()
+    assert threshold.tolist() == [0.5, 0.0]
+    assert archive.counts.tolist() == [0, 0]
+    assert not occupancy.any()
+
+
 def test_cells_far_apart_have_the_scores_of_points():
     rng = np.random.default_rng(1)
     cells, points, occupancy = empty_archive(60, 2), NoveltyArchive(60, k=4), empty_occupancy((900, 700))
     for _ in range(4):
         generation = rng.integers(0, (900, 700), (30, 2))
         scores = np.empty(30)
-        score_cells(generation, cells, occupancy, 4, scores)
+        score_cells(generation, cells, occupancy, 4, True, scores)
         assert scores.tolist() == points.score(generation).tolist()
         assert archived(cells)[0].tolist() == points.points.tolist()
 

@@ -6,20 +6,31 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from safe.algorithms import Parameters
-from safe.operators import Breeding, breed, crossover, draw_genomes, mutate, tournament
+from safe.judges import Judges
+from safe.operators import (
+    DRAWN_JUDGE,
+    Breeding,
+    breed,
+    crossover,
+    draw_genomes,
+    judged_tournament,
+    mutate,
+    tournament,
+)
 from tests.helpers import oracle
 
 MANY = 20_000
+NOBODY = Judges(np.empty((0, 2)), np.empty((2, 0)))
 
 
 def generator(seed):
     return np.random.Generator(np.random.SFC64(seed))
 
 
-def bred(genomes, fitness, seed, **rates):
+def bred(genomes, fitness, seed, judges=NOBODY, **rates):
     offspring = np.empty_like(genomes)
     rates = {"tournament": 5, "elites": 2, "crossover": 0.8, "mutation": 0.4, "low": -1.0, "high": 1.0, **rates}
-    breed(genomes, np.asarray(fitness, dtype=np.float64), Breeding(**rates), generator(seed), offspring)
+    breed(genomes, np.asarray(fitness, dtype=np.float64), judges, Breeding(**rates), generator(seed), offspring)
     return offspring
 
 
@@ -36,6 +47,25 @@ def test_breeding_is_that_of_the_oracle(seed, half, size, elite_pairs, length):
     fitness = generator(seed + 1).integers(0, 4, n).astype(float)  # with ties
     offspring = bred(genomes, fitness, seed, tournament=size, elites=2 * elite_pairs)
     assert offspring.tolist() == oracle.breed(genomes.tolist(), fitness, parameters, -1, 1, generator(seed))
+
+
+@given(st.integers(0, 2**32), st.integers(1, 10), st.integers(1, 6), st.integers(0, 3), st.integers(1, 8))
+def test_breeding_by_drawn_judges_is_that_of_the_oracle(seed, half, size, elite_pairs, m):
+    n = 2 * (half + elite_pairs)
+    parameters = Parameters(population=n, objectives=n, tournament=size, elites=2 * elite_pairs)
+    genomes, coefficients = generator(seed).random((n, 3)), generator(seed + 1).integers(0, 3, (m, 2)) / 2
+    components = generator(seed + 2).integers(0, 4, (2, n)).astype(float)  # with ties
+    rates = {"tournament": size, "elites": 2 * elite_pairs, "judging": DRAWN_JUDGE}
+    offspring = bred(genomes, np.full(n, np.nan), seed, Judges(coefficients, components), **rates)
+    panel = (coefficients @ components).tolist()
+    assert offspring.tolist() == oracle.breed(genomes.tolist(), None, parameters, -1, 1, generator(seed), panel)
+
+
+def test_a_single_judge_selects_as_fitness_does():
+    fitness = generator(1).integers(0, 4, 30).astype(float)
+    judge = Judges(np.array([[1.0]]), fitness[np.newaxis])
+    for seed in range(100):
+        assert tournament(fitness, 5, generator(seed)) == judged_tournament(judge, 30, 5, generator(seed))
 
 
 def test_the_elite_passes_on_unchanged_and_first():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from functools import cache
 from pathlib import Path
 
@@ -60,7 +59,7 @@ def _reported(maze: str, algorithm: str) -> pd.DataFrame:
 
 
 def parameter_table(parameters: Parameters = Parameters()) -> pd.DataFrame:
-    """Parameters beside the paper's Table 1.
+    """The parameters of the paper's Table 1, beside its values.
 
     Returns
     -------
@@ -68,12 +67,11 @@ def parameter_table(parameters: Parameters = Parameters()) -> pd.DataFrame:
         meaning, value, in the paper.
     """
     table1 = published().query("table == '1'").set_index("item")
-    values = asdict(parameters)
     return pd.DataFrame(
         {
-            "meaning": table1.quantity.reindex(values),
-            "value": [f"{value:g}" for value in values.values()],
-            "in the paper": [f"{value:g}" for value in table1["mean"].reindex(values)],
+            "meaning": table1.quantity,
+            "value": [f"{getattr(parameters, name):g}" for name in table1.index],
+            "in the paper": [f"{value:g}" for value in table1["mean"]],
         },
-        index=pd.Index(values, name="parameter"),
+        index=table1.index.rename("parameter"),
     )

@@ -1,6 +1,6 @@
 """Experiments: many independent runs of one algorithm on one maze.
 
-Its content alone identifies an experiment: the algorithm's objective functions and rating, the maze's cells, the
+Its content alone identifies an experiment: the algorithm's objective functions and choices, the maze's cells, the
 parameters, the seed, and the version of the rules that runs follow. Names and the number of runs do not count: 500 runs
 are the 100 made earlier and 400 more. The randomness of run r is spawned from a digest of the content and from r. So a
 run depends on nothing else: not on the executor, on how many runs there are, or on what ran earlier.
@@ -81,14 +81,14 @@ class Experiment:
     def content(self) -> dict:
         """What identifies this experiment, ready for JSON.
 
-        Only parameters that depart from the paper's are listed, so a parameter that is added later changes no old
+        Only parameters and choices that depart from the paper's are listed, so one that is added later changes no old
         experiment.
         """
         return {
             "rules": RULES,
             "seed": self.seed,
             "maze": self.maze.drawing(),
-            "algorithm": {"objectives": self.algorithm.objectives, "rating": self.algorithm.rating},
+            "algorithm": self.algorithm.content,
             "parameters": self.parameters.departures,
         }
 

@@ -53,10 +53,16 @@ def test_what_identifies_an_experiment():
         replace(EXPERIMENT, algorithm="novelty"),
         replace(EXPERIMENT, maze="maze2"),
         replace(EXPERIMENT, parameters=Parameters(generations=4, k=14)),
+        replace(EXPERIMENT, parameters=Parameters(generations=4, admission="random")),
+        *(
+            replace(EXPERIMENT, algorithm=replace(EXPERIMENT.algorithm, **choice))
+            for choice in ({"rating": "pearson"}, {"scaling": "rank"}, {"judging": "drawn judge"})
+        ),
     ]
     assert {experiment.digest for experiment in same} == {EXPERIMENT.digest}
-    assert len({experiment.digest for experiment in [EXPERIMENT, *others]}) == 5
+    assert len({experiment.digest for experiment in [EXPERIMENT, *others]}) == 9
     assert EXPERIMENT.content["parameters"] == {"generations": 4}
+    assert EXPERIMENT.content["algorithm"] == {"objectives": None, "rating": "genotypic novelty"}
 
 
 def test_rules_that_have_changed_make_another_experiment(monkeypatch):
@@ -78,6 +84,8 @@ def test_the_digest_that_random_streams_are_spawned_from():
         Experiment(Algorithm("frozen", objectives=None), Maze.from_drawing("S.G", "tiny")),
         Experiment(Algorithm("two", [(0.1, 1 / 3), (0, 1)], "genotypic novelty"), "maze1"),
         Experiment("safe", "maze1", parameters=Parameters(mutation=0.1, k=3, elites=0)),
+        Experiment("novelty", "maze1", parameters=Parameters(admission="threshold", threshold=3.0, admitted=7)),
+        Experiment(Algorithm("judged", rating="spearman", scaling="maximum", judging="drawn judge"), "maze2"),
     ],
     ids=lambda experiment: experiment.algorithm.name,
 )
@@ -95,7 +103,8 @@ def test_an_experiment_follows_from_its_content(experiment):
         ({"rules": 99}, "content must be one that this version writes"),
         ({"weather": "fine"}, "content must be one"),
         ({"algorithm": {"rating": "none", "objectives": [], "pool": "repertoire"}}, "content must be one"),
-        ({"algorithm": {"rating": "pearson", "objectives": None}}, "rating must be one of"),
+        ({"algorithm": {"rating": "patience", "objectives": None}}, "rating must be one of"),
+        ({"algorithm": {"rating": "none", "objectives": None, "scaling": "raw"}}, "content must be one"),  # the paper's
         ({"algorithm": None}, "content must be one"),
         ({"parameters": {"weather": "fine"}}, "content must be one"),
         ({"parameters": {"k": 15}}, "content must be one"),  # the paper's, which no content lists

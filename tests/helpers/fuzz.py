@@ -38,11 +38,12 @@ from hypothesis.errors import HypothesisWarning
 
 import safe
 from safe import Maze
-from safe.algorithms import RATINGS
 from safe.companion import notebook
 from safe.evolution import Generation, Run
+from safe.judges import RATINGS, SCALINGS
 from safe.maze_files import MAZE_FOLDER, load_mazes, parse_maze
-from safe.novelty import METRICS
+from safe.novelty import ADMISSIONS, METRICS
+from safe.operators import JUDGINGS
 from tests.helpers import maze_texts
 
 LONGEST_MESSAGE = 300
@@ -361,6 +362,9 @@ SMALL = {
     "archive": COUNTS,
     "steps": STEPS,
     "success_distance": st.integers(-1, 9),
+    "admission": st.sampled_from([*ADMISSIONS, "none"]),
+    "admitted": st.integers(0, 9),
+    "threshold": st.floats(-1, 9) | st.integers(0, 9),
 }
 PARAMETERS = st.fixed_dictionaries({}, optional={name: mostly(values) for name, values in SMALL.items()})
 WEIGHTS = st.floats(-1e100, 1e100) | st.sampled_from([0.0, 1.0, 0.5, 1e308])
@@ -370,13 +374,21 @@ ALGORITHMS = st.fixed_dictionaries(
     optional={
         "objectives": mostly(OBJECTIVES, tables(st.integers(0, 3), WEIGHTS) | ANYTHING),
         "rating": mostly(st.sampled_from(RATINGS)),
+        "scaling": mostly(st.sampled_from(SCALINGS)),
+        "judging": mostly(st.sampled_from(JUDGINGS)),
     },
 )
 SEEDS = mostly(st.integers(0) | st.lists(st.integers(-1), max_size=3) | st.just(np.random.SeedSequence(1)))
 
 
 def is_small(parameters: safe.Parameters) -> bool:
-    sizes = parameters.population, parameters.objectives, parameters.generations, parameters.tournament
+    sizes = (
+        parameters.population,
+        parameters.objectives,
+        parameters.generations,
+        parameters.tournament,
+        parameters.admitted,
+    )
     return max(sizes) <= 20
 
 
@@ -392,7 +404,7 @@ def try_run(case: tuple) -> None:
     assert isinstance(last, Generation)
     assert np.isfinite([run.distance, run.evaluations, *run.controller, *run.coefficients]).all()
     assert run.success == (run.distance <= parameters.success_distance)
-    for scores in (last.components, last.fitness, last.objective_fitness):
+    for scores in (last.components, last.scaled, last.fitness, last.objective_fitness):
         assert scores is None or np.isfinite(scores).all()
 
 
@@ -607,7 +619,10 @@ TARGETS = {
         12,
     ),
     "runs": Target(
-        st.tuples(ALGORITHMS, SEEDS, PARAMETERS), try_run, SETTINGS + "|name|objectives|rating|seed|parameters", 13
+        st.tuples(ALGORITHMS, SEEDS, PARAMETERS),
+        try_run,
+        SETTINGS + "|name|objectives|rating|scaling|judging|seed|parameters",
+        13,
     ),
     "arguments": Target(
         st.tuples(

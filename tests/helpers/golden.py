@@ -15,6 +15,7 @@ import numpy as np
 
 import safe
 from safe.evolution import RULES
+from safe.judges import RATINGS
 
 FILE = Path(__file__).parents[1] / "data" / "golden_runs.json"
 SEEDS = {"maze1": (1, 2), "maze2": (3,)}
@@ -27,12 +28,39 @@ def golden_runs():
                 yield {"algorithm": algorithm, "maze": maze, "seed": seed}
 
 
-def outcome(algorithm, maze, seed):
+def golden_choices():
+    """Runs with choices beyond the paper; ratings with drawn judges, since best scores hardly depend on the rating."""
+    drawn = {"judging": "drawn judge"}
+    algorithms = [{"scaling": "maximum"}, {"scaling": "rank"}, drawn, *({"rating": r} | drawn for r in RATINGS[2:])]
+    for algorithm, parameters in (
+        *(
+            ("novelty", parameters)
+            for parameters in ({"admission": "random"}, {"admission": "threshold"}, {"archive": 0})
+        ),
+        *(({"name": "mine", "rating": "genotypic novelty"} | choice, {}) for choice in algorithms),
+        (
+            {"name": "all", "rating": "spearman", "scaling": "rank", "judging": "drawn judge"},
+            {"admission": "random", "admitted": 20, "archive": 100},
+        ),
+    ):
+        yield {"algorithm": algorithm, "maze": "maze2", "seed": 8, "parameters": {"generations": 100} | parameters}
+
+
+def algorithm_of(algorithm):
+    """An algorithm's name, or an algorithm from its fields."""
+    return safe.Algorithm(**algorithm) if isinstance(algorithm, dict) else algorithm
+
+
+def outcome(algorithm, maze, seed, parameters=None):
     """A run as it returns from JSON."""
-    return json.loads(json.dumps(asdict(safe.evolve(maze, algorithm, seed))))
+    run = safe.evolve(maze, algorithm_of(algorithm), seed, safe.Parameters(**(parameters or {})))
+    return json.loads(json.dumps(asdict(run)))
 
 
 if __name__ == "__main__":
     versions = {"python": platform.python_version(), "numpy": np.__version__, "numba": numba.__version__}
-    runs = [{**which, "outcome": outcome(**which)} for which in golden_runs()]
-    FILE.write_text(json.dumps({"rules": RULES, "made with": versions, "runs": runs}, indent=1) + "\n")
+    runs, choices = (
+        [{**which, "outcome": outcome(**which)} for which in some()] for some in (golden_runs, golden_choices)
+    )
+    golden = {"rules": RULES, "made with": versions, "runs": runs, "choices": choices}
+    FILE.write_text(json.dumps(golden, indent=1) + "\n")

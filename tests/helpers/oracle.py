@@ -1,4 +1,4 @@
-"""The paper's rules once more, in plain Python, as slow and as obvious as possible.
+"""The paper's rules and the choices beyond it once more, in plain Python, as slow and as obvious as possible.
 
 Nothing here imports the package. A maze is a list of strings (`#` wall), a controller a list of 16 numbers.
 """
@@ -99,11 +99,47 @@ class Archive:
             if not score > lowest[0]:
                 return
             self.members.remove(lowest)
+        self.enter(point, score)
+
+    def enter(self, point, score):
         self.members.append((score, self.entered, point))
         self.entered += 1
 
+    def enter_for_the_oldest(self, point, score):
+        if self.capacity:
+            self.enter(point, score)
+            self.members = self.members[-self.capacity :]
 
-def novelty(points, archive, k, distance):
+
+class Threshold:
+    def __init__(self, first):
+        self.value = first
+        self.idle = 0
+
+    def admit(self, points, scores, archive):
+        entering = [(p, score) for p, score in zip(points, scores, strict=True) if score > self.value]
+        if not archive.capacity:
+            return
+        for point, score in entering:
+            archive.enter_for_the_oldest(point, score)
+        if entering:
+            self.idle = 0
+        else:
+            self.idle += len(points)
+        if len(entering) > 4:
+            self.value *= 1.2
+        if self.idle >= 2500:
+            self.value *= 0.95
+            self.idle = 0
+
+
+def admit_drawn(points, scores, archive, admitted, rng):
+    if archive.capacity:
+        for i in [index(rng, len(points)) for _ in range(admitted)]:
+            archive.enter_for_the_oldest(points[i], scores[i])
+
+
+def novelty(points, archive, k, distance, offering=True):
     scores = []
     for i, point in enumerate(points):
         others = [other for j, other in enumerate(points) if j != i]
@@ -112,8 +148,57 @@ def novelty(points, archive, k, distance):
         for d in sorted(distance(point, other) for other in others)[:k]:
             total += d
         scores.append(total / k)
-        archive.offer(point, scores[-1])
+        if offering:
+            archive.offer(point, scores[-1])
     return scores
+
+
+def ranks(values):
+    ascending = sorted(values)
+    first = {value: ascending.index(value) for value in values}
+    return [first[value] + (values.count(value) - 1) / 2 for value in values]
+
+
+def scale(values, scaling):
+    if scaling == "raw":
+        return values
+    if scaling == "maximum":
+        return [value / max(values) if max(values) else 0.0 for value in values]
+    return [rank / (len(values) - 1) for rank in ranks(values)]
+
+
+def correlation(xs, ys):
+    n = len(xs)
+    sides = []
+    for values in (xs, ys):
+        total = 0.0
+        for value in values:
+            total += value
+        deviations = [value - total / n for value in values]
+        squares = 0.0
+        for deviation in deviations:
+            squares += deviation * deviation
+        sides.append((deviations, math.sqrt(squares)))
+    (xs, x), (ys, y) = sides
+    product = 0.0
+    for dx, dy in zip(xs, ys, strict=True):
+        product += dx * dy
+    return product / (x * y) if x and y else 0.0
+
+
+def pearson(scores, nearness):
+    return correlation([s - scores[0] for s in scores], [s - nearness[0] for s in nearness])
+
+
+def spearman(scores, nearness):
+    return correlation(ranks(scores), ranks(nearness))
+
+
+def score(objective, components):
+    total = 0.0
+    for coefficient, component in zip(objective, components, strict=True):
+        total += coefficient * component
+    return total
 
 
 def index(rng, n):
@@ -130,12 +215,36 @@ def select(fitness, size, rng):
     return next(i for i in drawn if fitness[i] == best)
 
 
-def breed(genomes, fitness, parameters, low, high, rng):
-    ranked = sorted(range(len(genomes)), key=lambda i: (-fitness[i], i))
-    offspring = [list(genomes[i]) for i in ranked[: parameters.elites]]
+def select_by_one(panel, size, rng):
+    drawn = [index(rng, len(panel[0])) for _ in range(size)]
+    scores = panel[index(rng, len(panel))]
+    return max(drawn, key=lambda i: scores[i])
+
+
+def favourites(panel, count, rng):
+    found = []
+    for _ in range(count):
+        scores = panel[index(rng, len(panel))]
+        others = [i for i in range(len(scores)) if i not in found]
+        found.append(max(others, key=lambda i: scores[i]))
+    return found
+
+
+def breed(genomes, fitness, parameters, low, high, rng, panel=None):
+    """With a panel, the scores that each objective function gives all genomes, tournaments have drawn judges."""
+
+    def parent():
+        if panel:
+            return select_by_one(panel, parameters.tournament, rng)
+        return select(fitness, parameters.tournament, rng)
+
+    if panel:
+        elites = favourites(panel, parameters.elites, rng)
+    else:
+        elites = sorted(range(len(genomes)), key=lambda i: (-fitness[i], i))[: parameters.elites]
+    offspring = [list(genomes[i]) for i in elites]
     while len(offspring) < len(genomes):
-        first = list(genomes[select(fitness, parameters.tournament, rng)])
-        second = list(genomes[select(fitness, parameters.tournament, rng)])
+        first, second = list(genomes[parent()]), list(genomes[parent()])
         if rng.random() < parameters.crossover:
             cut = 1 + index(rng, len(first) - 1)
             first, second = first[:cut] + second[cut:], second[:cut] + first[cut:]
@@ -147,36 +256,51 @@ def breed(genomes, fitness, parameters, low, high, rng):
     return offspring
 
 
-def evolve(drawing, objectives, rated, parameters, rng):
-    """A run of an algorithm with these objective functions (None: drawn), rated by genotypic novelty or not at all.
+def evolve(drawing, algorithm, parameters, rng):
+    """A run of an algorithm, which has objective functions (None: drawn) and choices.
 
-    Yields, for every generation, its genomes, end points, fitness and objective functions, and the best so far:
-    (distance, genome, objective function).
+    Yields, for every generation, its genomes, end points, fitness and objective functions, the best so far (distance,
+    genome, objective function), the fitness of objective functions (None: they do not evolve), and the archive.
     """
     goal = find(drawing, "G")
     solutions = [[uniform(rng, -1, 1) for _ in range(16)] for _ in range(parameters.population)]
+    objectives = algorithm.objectives
     if objectives is None:
         objectives = [[uniform(rng, 0, 1) for _ in range(2)] for _ in range(parameters.objectives)]
     archive, objective_archive = Archive(parameters.archive), Archive(parameters.archive)
+    threshold = Threshold(parameters.threshold)
+    rated = algorithm.rating != "none"
+    needs_novelty = rated or any(b for _, b in objectives)
     best = None
     for _ in range(parameters.generations):
         ends = [path(drawing, solution, parameters.steps)[-1] for solution in solutions]
         distances = [taxicab(end, goal) for end in ends]
-        novelties = novelty(ends, archive, parameters.k, taxicab)
-        fitness, winners = [], []
-        for distance, new in zip(distances, novelties, strict=True):
-            nearness = 1 / distance if distance else 2.0
-            scores = [a * nearness + b * new for a, b in objectives]
-            fitness.append(max(scores))
-            winners.append(objectives[scores.index(max(scores))])
-        for distance, solution, winner in zip(distances, solutions, winners, strict=True):
+        nearness = [1 / distance if distance else 2.0 for distance in distances]
+        novelties = [0.0] * len(ends)
+        if needs_novelty:
+            offering = parameters.admission == "lowest replaced"
+            novelties = novelty(ends, archive, parameters.k, taxicab, offering)
+            if parameters.admission == "random":
+                admit_drawn(ends, novelties, archive, parameters.admitted, rng)
+            if parameters.admission == "threshold":
+                threshold.admit(ends, novelties, archive)
+        components = list(zip(*(scale(values, algorithm.scaling) for values in (nearness, novelties)), strict=True))
+        panel = [[score(objective, of_one) for of_one in components] for objective in objectives]
+        fitness = [max(scores) for scores in zip(*panel, strict=True)]
+        for i, distance in enumerate(distances):
             if best is None or distance < best[0]:
-                best = distance, list(solution), list(winner)
-        yield solutions, ends, fitness, objectives, best
+                winner = next(j for j, scores in enumerate(panel) if scores[i] == fitness[i])
+                best = distance, list(solutions[i]), list(objectives[winner])
+        objective_fitness = None
+        if algorithm.rating == "genotypic novelty":
+            objective_fitness = novelty(objectives, objective_archive, parameters.k, euclidean)
+        elif rated:
+            correlate = {"pearson": pearson, "spearman": spearman}[algorithm.rating]
+            objective_fitness = [correlate(scores, [-distance for distance in distances]) for scores in panel]
+        yield solutions, ends, fitness, objectives, best, objective_fitness, archive
         if best[0] <= parameters.success_distance:
             return
-        if rated:
-            objective_fitness = novelty(objectives, objective_archive, parameters.k, euclidean)
-        solutions = breed(solutions, fitness, parameters, -1, 1, rng)
+        judges = panel if algorithm.judging == "drawn judge" else None
+        solutions = breed(solutions, fitness, parameters, -1, 1, rng, judges)
         if rated:
             objectives = breed(objectives, objective_fitness, parameters, 0, 1, rng)

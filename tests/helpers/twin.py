@@ -91,7 +91,7 @@ TWINS = (
 def algorithm_of(algorithm: Algorithm | str) -> dict | str:
     if isinstance(algorithm, str):
         return algorithm
-    return {"name": algorithm.name, "objectives": algorithm.objectives, "rating": algorithm.rating}
+    return {"name": algorithm.name, **algorithm.content}
 
 
 def seed_of(seed: Seed) -> object:
@@ -109,7 +109,7 @@ def run_of(function: str, maze: Maze, algorithm: Algorithm | str, seed: Seed, pa
         "maze": maze.drawing(),
         "algorithm": algorithm_of(algorithm),
         "seed": seed_of(seed),
-        "parameters": vars(parameters),
+        "parameters": parameters.departures,
     }
 
 
@@ -117,6 +117,8 @@ def as_in_engine(run: Run) -> dict:
     """A run or a generation of the package, in the form of the engine."""
     fields = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in vars(run).items()}
     if isinstance(run, Generation):
+        if run.scaled is None:
+            del fields["scaled"]
         fields["objectiveFitness"] = fields.pop("objective_fitness")
         for name, key in (("archive", "archive"), ("objective_archive", "objectiveArchive")):
             points, scores = fields.pop(name)

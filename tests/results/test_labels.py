@@ -25,6 +25,10 @@ def test_names_that_differ_are_labels_as_they_are():
             [{"parameters": safe.Parameters(mutation=0.1)}, {"seed": 7}],
             ["safe (mutation = 0.1, seed 0)", "safe (mutation = 0.4, seed 7)"],
         ),
+        (
+            [{}, {"parameters": safe.Parameters(admission="random")}],
+            ["safe (admission = lowest replaced)", "safe (admission = random)"],
+        ),
         ([{"runs": 20}, {"runs": 100}], ["safe (20 runs)", "safe (100 runs)"]),
         ([{"runs": 20}, {"runs": 100, "seed": 1}], ["safe (seed 0)", "safe (seed 1)"]),
     ],
