@@ -5,8 +5,9 @@ An address is the part of the page's URL behind the `#`, `key=value&key=value`, 
     view         `watch` a run, or `drive` a robot by its controller
     maze         a packaged maze's name, or the cells of any maze: HEIGHTxWIDTH/row,column of the start/row,column of
                  the goal/walls; the walls are bits, row by row, in base64url without padding
-    algorithm    its name in `safe.ALGORITHMS`, or name:rating:objectives; the rating is `none` or `genotypic`, the
-                 objectives are `drawn`, or the coefficients a,b,a,b,... of each (empty: random search)
+    algorithm    its name in `safe.ALGORITHMS`, or name:rating:objectives, and then :scaling:judging unless both are the
+                 paper's, each by its first word; the objectives are `drawn`, or the coefficients a,b,a,b,... of each
+                 (empty: random search)
     seed         an integer or several, separated by commas, then perhaps a slash and the spawn key; a run of an
                  experiment has the experiment's digest and the number of the run
     controller   the sixteen weights, separated by commas
@@ -37,7 +38,6 @@ _NUMBER = r"(?:0x[0-9a-fA-F]{1,64}|[0-9]{1,80})"
 _SEED = re.compile(rf"({_NUMBER}(?:,{_NUMBER})*)(?:/({_NUMBER}(?:,{_NUMBER})*))?")
 _LARGEST = 2**256 - 1  # number in a seed; as large as the digest of an experiment
 _POOL_SIZE = np.random.SeedSequence(0).pool_size  # the only one that the page supports
-_RATINGS = {"none": "none", "genotypic novelty": "genotypic"}
 
 
 def run_address(experiment: Experiment, run: int) -> str:
@@ -52,6 +52,8 @@ def run_address(experiment: Experiment, run: int) -> str:
     --------
     >>> run_address(Experiment("safe", "maze1", seed=3), 7)[:50]
     'view=watch&maze=maze1&algorithm=safe&seed=0xc59dd4'
+    >>> run_address(Experiment(Algorithm("mine", rating="pearson", judging="drawn judge"), "maze1"), 7)[22:65]
+    'algorithm=mine:pearson:drawn:raw:drawn&seed'
     >>> from safe import Parameters
     >>> run_address(Experiment("safe", "maze1", parameters=Parameters(population=50, mutation=0.1)), 7)[-29:]
     '/7&population=50&mutation=0.1'
@@ -62,7 +64,7 @@ def run_address(experiment: Experiment, run: int) -> str:
         maze=_maze(experiment.maze),
         algorithm=_algorithm(experiment.algorithm),
         seed=f"0x{experiment.digest}/{run}",
-        **{name: repr(value) for name, value in experiment.parameters.departures.items()},
+        **{name: str(value) for name, value in experiment.parameters.departures.items()},
     )
 
 
@@ -159,8 +161,14 @@ def _algorithm(algorithm: Algorithm) -> str:
     if algorithm == ALGORITHMS.get(algorithm.name):
         return algorithm.name
     objectives = "drawn" if algorithm.objectives is None else _numbers(np.ravel(algorithm.objectives))
-    name = algorithm.name.replace(":", " ")  # a colon separates the parts
-    return f"{name}:{_RATINGS[algorithm.rating]}:{objectives}"
+    parts = [algorithm.name.replace(":", " "), _code(algorithm.rating), objectives]  # a colon separates the parts
+    if not algorithm.content.keys().isdisjoint({"scaling", "judging"}):
+        parts += [_code(algorithm.scaling), _code(algorithm.judging)]
+    return ":".join(parts)
+
+
+def _code(choice: str) -> str:
+    return choice.split()[0]
 
 
 def _numbers(values: np.ndarray) -> str:

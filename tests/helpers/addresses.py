@@ -6,6 +6,8 @@ from urllib.parse import unquote
 import numpy as np
 
 import safe
+from safe.judges import RATINGS, SCALINGS
+from safe.operators import JUDGINGS
 
 
 def values_of(address):
@@ -27,10 +29,13 @@ def maze_of(text):
 def algorithm_of(text):
     if ":" not in text:
         return safe.ALGORITHMS[text]
-    name, rating, objectives = text.split(":")
+    name, rating, objectives, *more = text.split(":")
     numbers = [float(number) for number in objectives.split(",")] if objectives not in ("drawn", "") else []
     pairs = None if objectives == "drawn" else list(zip(numbers[::2], numbers[1::2], strict=True))
-    return safe.Algorithm(name, pairs, {"none": "none", "genotypic": "genotypic novelty"}[rating])
+    choices = [(RATINGS, rating), *zip((SCALINGS, JUDGINGS), more, strict=bool(more))]
+    return safe.Algorithm(
+        name, pairs, *(next(choice for choice in allowed if choice.split()[0] == code) for allowed, code in choices)
+    )
 
 
 def seed_of(text):
@@ -43,5 +48,6 @@ def run_at(address):
     values = values_of(address)
     assert values.pop("view") == "watch"
     maze, algorithm, seed = (values.pop(key) for key in ("maze", "algorithm", "seed"))
-    own = {name: (float if "." in value else int)(value) for name, value in values.items()}
+    admission = {"admission": values.pop("admission")} if "admission" in values else {}
+    own = admission | {name: (int if value.isdigit() else float)(value) for name, value in values.items()}
     return safe.evolve(maze_of(maze), algorithm_of(algorithm), seed_of(seed), safe.Parameters(**own))

@@ -1,11 +1,16 @@
 """Runs of every kind, drawn at random: mazes, algorithms, seeds and parameters."""
 
 import functools
+import itertools
+from dataclasses import replace
 
 import numpy as np
 
 import safe
 from safe import Algorithm, Experiment, Maze, Parameters, load_maze
+from safe.judges import RATINGS, SCALINGS
+from safe.novelty import ADMISSIONS
+from safe.operators import JUDGINGS
 
 RUNS = 200
 
@@ -86,3 +91,25 @@ def runs_of_every_kind():
         (papers[1], "novelty", [0, 0], smallest),
         (Maze.from_drawing("SG"), "fixed", [2**40], Parameters(generations=3)),
     ]
+
+
+@functools.cache
+def runs_with_choices():
+    """The arguments of a run with each combination of choices, most of them beyond the paper."""
+    rng = np.random.default_rng(2020)
+    papers = [load_maze("maze1"), load_maze("maze2")]
+    runs = []
+    for admission, *choices in itertools.product(ADMISSIONS, RATINGS, SCALINGS, JUDGINGS):
+        parameters = drawn_parameters(rng)
+        parameters = replace(
+            parameters,
+            generations=min(parameters.generations, 10),
+            admission=admission,
+            admitted=int(rng.integers(1, 30)),
+            threshold=float(rng.choice([0.0, 0.5, 6.0, 20.0])),
+        )
+        given = [(1, 0), *rng.uniform(-0.2, 1, (3, 2)).tolist()]
+        algorithm = Algorithm("mine", given if rng.random() < 0.4 else None, *choices)
+        maze = drawn_maze(rng) if rng.random() < 0.4 else papers[rng.integers(2)]
+        runs.append((maze, algorithm, drawn_seed(rng), parameters))
+    return runs

@@ -117,8 +117,6 @@ def as_in_engine(run: Run) -> dict:
     """A run or a generation of the package, in the form of the engine."""
     fields = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in vars(run).items()}
     if isinstance(run, Generation):
-        if run.scaled is None:
-            del fields["scaled"]
         fields["objectiveFitness"] = fields.pop("objective_fitness")
         for name, key in (("archive", "archive"), ("objective_archive", "objectiveArchive")):
             points, scores = fields.pop(name)

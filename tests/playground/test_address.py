@@ -1,16 +1,21 @@
 """Addresses say what they are addresses of: read again, they give the same maze, the same algorithm, the same run."""
 
+import json
+import subprocess
+
 import numpy as np
 import pytest
 from hypothesis import given
 
 import safe
+from safe.playground import bundle
 from safe.playground.address import drive_address, run_address
 from tests.helpers.addresses import algorithm_of, maze_of, run_at, values_of
 from tests.helpers.strategies import controllers, mazes
+from tests.helpers.twin import NODE, needs_node
 
 FEW = safe.Parameters(population=20, objectives=10, generations=3, elites=0, mutation=0.25)
-
+MORE = safe.Parameters(20, 10, 3, elites=0, admission="threshold", admitted=7, threshold=0.00001)
 
 ALGORITHMS = [
     *safe.ALGORITHMS.values(),
@@ -18,13 +23,17 @@ ALGORITHMS = [
     safe.Algorithm("safe", [(0.1, 1e-7), (1 / 3, 2)], "genotypic novelty"),
     safe.Algorithm("unevolved"),
     safe.Algorithm("nobody", []),
+    safe.Algorithm("novelty", [(0, 1)], scaling="rank"),
+    safe.Algorithm("ratings", None, "spearman", "maximum", "drawn judge"),
+    safe.Algorithm("judged", [(1, 0), (0, 1)], "pearson", judging="drawn judge"),
     safe.Algorithm("a: ½, b: 50 % & #1=/", [(1, 0)]),
 ]
 
 
+@pytest.mark.parametrize("parameters", [FEW, MORE], ids=["few", "more"])
 @pytest.mark.parametrize("algorithm", ALGORITHMS, ids=lambda algorithm: algorithm.name)
-def test_the_run_that_an_address_says_is_that_of_the_experiment(algorithm):
-    experiment = safe.Experiment(algorithm, "maze1", runs=3, seed=5, parameters=FEW)
+def test_the_run_that_an_address_says_is_that_of_the_experiment(algorithm, parameters):
+    experiment = safe.Experiment(algorithm, "maze1", runs=3, seed=5, parameters=parameters)
     row = safe.run(experiment, progress=False).loc[2]
     made = run_at(run_address(experiment, 2))
     assert (made.success, made.generation, made.distance) == (row.success, row.generation, row.distance)
@@ -35,7 +44,7 @@ def test_the_run_that_an_address_says_is_that_of_the_experiment(algorithm):
 def test_an_algorithm_is_written_by_name_where_it_is_the_one_of_this_name(algorithm):
     text = values_of(run_address(safe.Experiment(algorithm, "maze1"), 0))["algorithm"]
     found = algorithm_of(text)
-    assert (found.objectives, found.rating) == (algorithm.objectives, algorithm.rating)
+    assert found.content == algorithm.content
     assert (":" in text) == (algorithm not in safe.ALGORITHMS.values())
     assert found.name == algorithm.name.replace(":", " ")
 
@@ -46,6 +55,46 @@ def test_an_address_is_readable():
     assert run_address(fixed, np.int64(12)) == address
     nobody = safe.Experiment(safe.Algorithm("a & b", []), "maze1")
     assert run_address(nobody, 0).startswith("view=watch&maze=maze1&algorithm=a%20%26%20b:none:&seed=0x")
+    judged = safe.Algorithm("judged", None, "genotypic novelty", judging="drawn judge")
+    choosing = safe.Experiment(judged, "maze1", parameters=safe.Parameters(admission="random", admitted=9))
+    address = f"algorithm=judged:genotypic:drawn:raw:drawn&seed=0x{choosing.digest}/0&admission=random&admitted=9"
+    assert run_address(choosing, 0) == f"view=watch&maze=maze1&{address}"
+
+
+@needs_node
+def test_the_page_reads_and_writes_the_same_addresses():
+    experiments = [
+        safe.Experiment(a, "maze1", parameters=p) for a in ALGORITHMS for p in (safe.Parameters(), FEW, MORE)
+    ]
+    addresses = [run_address(experiment, 1) for experiment in experiments]
+    known = "view=watch&maze=maze1&seed=1&algorithm="
+    same = [f"{known}{algorithm}" for algorithm in ("safe:genotypic:drawn:raw:best", "safe:genotypic:drawn")]
+    wrong = [
+        f"{known}mine:{rest}"
+        for rest in ("none", "by:1,0", "none:1,0:rank", "none:1,0:log:best", "none:1,0:raw:best:1")
+    ]
+    script = f"""{bundle.script(("address.js",))}
+        const {{ readAddress, writeAddress }} = playground();
+        const told = (text) => {{
+            try {{
+                const state = {{ parameters: {{}}, ...readAddress(text) }};
+                return [...state.algorithms, state.parameters, writeAddress(state)];
+            }} catch (error) {{
+                return error.message;
+            }}
+        }};
+        console.log(JSON.stringify({json.dumps([*addresses, *same, *wrong])}.map(told)));"""
+    found = json.loads(subprocess.run([NODE, "-"], input=script, capture_output=True, text=True, check=True).stdout)
+    for experiment, address in zip(experiments, addresses, strict=True):
+        algorithm, parameters, written = found.pop(0)
+        assert safe.Algorithm(**algorithm).content == experiment.algorithm.content
+        assert safe.Parameters(**parameters) == experiment.parameters
+        assert list(values_of(written)) == list(values_of(address))
+        assert algorithm_of(values_of(written)["algorithm"]).content == experiment.algorithm.content
+    assert found[0] == found[1]
+    assert [message.split(";")[0] for message in found[2:]] == [
+        "algorithm must be a name, or name:rating:a,b,..., perhaps with :scaling:judging"
+    ] * 5
 
 
 @given(maze=mazes(), controller=controllers())

@@ -13,9 +13,9 @@ from safe import Algorithm, Maze, NoveltyArchive, Parameters, checks, load_maze
 from safe.maze import ways_to_goal
 from safe.maze_files import MAZE_FOLDER, parse_maze, text_of
 from safe.novelty import METRICS
-from tests.helpers import fuzz, golden, maze_texts, record
+from tests.helpers import fuzz, golden, maze_texts, oracle, record
 from tests.helpers.reference import reference_endpoints
-from tests.helpers.runs import runs_of_every_kind
+from tests.helpers.runs import runs_of_every_kind, runs_with_choices
 from tests.helpers.strategies import controllers, generations_of_points, mazes
 from tests.helpers.twin import TWINS, as_in_engine, in_node, needs_node, run_of
 
@@ -204,9 +204,65 @@ def test_every_generation_until_the_archives_are_full_and_beyond(twin, algorithm
     assert found == [as_in_engine(generation) for generation in safe.generations(*run)]
 
 
-@pytest.mark.parametrize("archive", [0, 300, 1000])
-def test_neighbours_are_those_that_make_the_novelty(twin, archive):
-    run = load_maze("maze2"), "novelty", 3, Parameters(generations=4, archive=archive)
+def test_every_generation_with_each_combination_of_choices(twin):
+    runs = runs_with_choices()
+    found = twin.results(run_of("generations", *run) for run in runs)
+    for run, got in zip(runs, found, strict=True):
+        assert got == [as_in_engine(generation) for generation in safe.generations(*run)], run
+    assert {len(got) > 1 for got in found} == {False, True}
+
+
+CHOICES = [
+    {"scaling": "maximum"},
+    {"scaling": "rank"},
+    {"judging": "drawn judge"},
+    {"rating": "pearson", "judging": "drawn judge"},
+    {"rating": "spearman", "judging": "drawn judge"},
+    {"admission": "random"},
+    {"admission": "threshold"},
+]
+
+
+@pytest.mark.parametrize("maze", ["maze1", "maze2"])
+@pytest.mark.parametrize("choice", CHOICES, ids=lambda choice: ", ".join(choice.values()))
+def test_every_generation_with_a_choice_until_the_archive_is_full_and_beyond(twin, choice, maze):
+    choice = {"rating": "genotypic novelty"} | choice
+    rules = {"admission": choice.pop("admission")} if "admission" in choice else {}
+    parameters = Parameters(generations=7, success_distance=0, archive=25, threshold=3, **rules)
+    run = load_maze(maze), Algorithm("mine", **choice), 7, parameters
+    (found,) = twin.results([run_of("generations", *run)])
+    assert found == [as_in_engine(generation) for generation in safe.generations(*run)]
+    assert len(found[-1]["archive"]["points"]) == 25
+
+
+@settings(max_examples=30)
+@given(
+    first=st.floats(0, 9),
+    generations=st.lists(st.tuples(st.sampled_from([100, 1249, 1250, 2500]), st.sampled_from([0, 0, 0, 1, 4, 5]))),
+)
+def test_the_threshold_of_admission_rises_and_falls(twin, first, generations):
+    threshold, archive, scores, expected = oracle.Threshold(first), oracle.Archive(5), [], []
+    for others, entering in generations:
+        scores.append([threshold.value] * others + [np.nextafter(threshold.value, np.inf)] * entering)
+        threshold.admit([None] * len(scores[-1]), scores[-1], archive)
+        entered = [score for score, _, _ in archive.members]
+        expected.append({"value": threshold.value, "idle": threshold.idle, "entered": entered})
+    assert twin.results([{"function": "admitAbove", "threshold": first, "scores": scores}]) == [expected]
+
+
+@pytest.mark.parametrize(
+    ("archive", "admission"),
+    [
+        (0, "lowest replaced"),
+        (300, "lowest replaced"),
+        (1000, "lowest replaced"),
+        (1000, "random"),
+        (1000, "threshold"),
+    ],
+)
+def test_neighbours_are_those_that_make_the_novelty(twin, archive, admission):
+    parameters = Parameters(generations=4, archive=archive, admission=admission, admitted=30, threshold=2)
+    run = load_maze("maze2"), "novelty", 3, parameters
     (neighbours,) = twin.results([run_of("neighbours", *run)])
     *_, before, last = safe.generations(*run)
     archived = [*before.archive[0].tolist(), *last.endpoints.tolist()]
@@ -223,6 +279,12 @@ def test_neighbours_are_those_that_make_the_novelty(twin, archive):
 
 BAD_ARGUMENTS = [
     *({"algorithm": name} for name in ("saef", "", "constructor", None)),
+    {"algorithm": ("mine", None, "by taste")},
+    {"algorithm": ("mine", None, "pearson", "log")},
+    {"algorithm": ("mine", None, "none", "raw", "favourite")},
+    {"algorithm": ("mine", [(1, 0, 0)], "none", "raw", None)},
+    {"algorithm": ("mine", [(1, 0)] * 3, "spearman", "rank", "drawn judge")},
+    {"algorithm": ("mine", [(1, 0)] * 2, "pearson")},
     {"algorithm": ("mine", [(1, 0, 0)])},
     {"algorithm": ("mine", [(1, 1e308)])},
     {"algorithm": ("mine", [(1, 0)] * 3, "genotypic novelty")},
@@ -239,28 +301,17 @@ BAD_ARGUMENTS = [
     ),
     *({"parameters": {name: 0}} for name in ("generations", "tournament", "k", "steps")),
     {"parameters": {"mutation": 2, "k": 0}},
+    *({"parameters": {"admission": value}} for value in ("all", "", None, 0)),
+    *({"parameters": {"admitted": value}} for value in (0, 1.5, 10**9)),
+    *({"parameters": {"threshold": value}} for value in (-0.5, 10**7, "6", None)),
+    {"parameters": {"threshold": -1, "admission": "constructor"}},
 ]
 
 
-BAD_CHOICES = [
-    {"algorithm": ("mine", None, "by taste")},
-    {"algorithm": ("mine", None, "none", "log")},
-    {"algorithm": ("mine", None, "none", "raw", "majority")},
-    {"algorithm": ("mine", [(1, 0)], "spearman")},
-    {"parameters": {"admission": "all"}},
-    {"parameters": {"admitted": 0}},
-    *({"parameters": {"threshold": value}} for value in (-1, 10**7, None)),
-]
-NO_CHOICES = pytest.mark.xfail(strict=True, reason="the engine has only the paper's rules")
-
-
-@pytest.mark.parametrize(
-    "bad_arguments", [BAD_ARGUMENTS, pytest.param(BAD_CHOICES, marks=NO_CHOICES)], ids=["papers", "choices"]
-)
 @pytest.mark.parametrize("function", ["evolve", "generations"])
-def test_bad_arguments_are_refused_in_the_same_words(twin, function, bad_arguments):
+def test_bad_arguments_are_refused_in_the_same_words(twin, function):
     calls = []
-    for bad in bad_arguments:
+    for bad in BAD_ARGUMENTS:
         call = {"function": function, "maze": "S.G", "algorithm": "safe", "seed": 0, "parameters": {}, **bad}
         if isinstance(call["algorithm"], tuple):
             names = "name", "objectives", "rating", "scaling", "judging"
@@ -289,17 +340,12 @@ def test_bad_archives_are_refused_in_the_same_words(twin, arguments):
 
 
 @needs_node
-@pytest.mark.parametrize("kind", ["runs", pytest.param("choices", marks=NO_CHOICES)])
-def test_golden_runs(kind):
-    golden_runs = json.loads(golden.FILE.read_text())[kind]
-    calls = []
-    for run in golden_runs:
-        algorithm = golden.algorithm_of(run["algorithm"])
-        parameters = Parameters(**run.get("parameters", {}))
-        calls.append(run_of("evolve", load_maze(run["maze"]), algorithm, run["seed"], parameters))
+def test_golden_runs():
+    recorded = json.loads(golden.FILE.read_text())
+    runs = recorded["runs"] + recorded["choices"]
+    calls = [{"function": "evolve", "parameters": {}, **run, "maze": load_maze(run["maze"]).drawing()} for run in runs]
     with in_node() as twin:
-        found = twin.results(calls)
-    assert found == [run["outcome"] for run in golden_runs]
+        assert twin.results(calls) == [run["outcome"] for run in runs]
 
 
 def test_runs_behind_the_ledger(twin):

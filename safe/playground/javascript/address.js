@@ -1,6 +1,6 @@
 // The state of the playground as the part of a page's address behind the #, and back (see safe/playground/address.py).
 
-import { ALGORITHMS, checkedAlgorithm, checkedParameters, PARAMETERS, RATINGS } from "./algorithms.js";
+import { ALGORITHMS, checkedAlgorithm, checkedParameters, CHOICES, PARAMETERS } from "./algorithms.js";
 import { checkedChoice, checkedInteger, checkedRow, InputError, MOST, shown } from "./checks.js";
 import { LONGEST_SIDE, makeMaze } from "./maze.js";
 import { isNamed, namedMaze } from "./named_mazes.js";
@@ -10,7 +10,6 @@ import { WEIGHTS } from "./robot.js";
 export const VIEWS = ["watch", "drive", "draw", "runs"];
 export const MOST_RUNS = 10000;
 const MOST_ALGORITHMS = 8; // side by side in a view
-const RATING_CODES = { none: RATINGS[0], genotypic: RATINGS[1] };
 
 /** The state that an address describes: those of { view, maze, algorithms, seed, parameters, generation, runs,
  * controller } that it names. Throws an InputError if it cannot be read. */
@@ -27,7 +26,7 @@ export function readAddress(text) {
     else if (key === "generation") state.generation = checkedInteger(key, readNumber(key, value), 0, MOST);
     else if (key === "runs") state.runs = checkedInteger(key, readNumber(key, value), 1, MOST_RUNS);
     else if (key === "controller") state.controller = readController(value);
-    else if (Object.hasOwn(PARAMETERS, key)) parameters[key] = readNumber(key, value);
+    else if (Object.hasOwn(PARAMETERS, key)) parameters[key] = key === "admission" ? value : readNumber(key, value);
     else throw new InputError(`an address must hold known keys; got ${shown(key)}`);
   }
   if (state.algorithms?.length > MOST_ALGORITHMS) {
@@ -101,19 +100,35 @@ function readAlgorithm(text) {
   const [name, rating, objectives, ...more] = text.split(":");
   if (rating === undefined) return checkedAlgorithm(name);
   const coefficients = objectives === "drawn" ? null : objectives ? objectives.split(",").map(readDecimal) : [];
-  const isWhole = objectives !== undefined && more.length === 0 &&
+  const codes = [rating, ...(more.length > 0 ? more : ["raw", "best"])];
+  const choices = Object.keys(CHOICES).map((name, i) => [name, choiceOf(name, codes[i])]);
+  const isWhole = objectives !== undefined && codes.length === choices.length &&
+    choices.every(([, choice]) => choice) &&
     (coefficients === null || coefficients.length % 2 === 0);
-  if (!isWhole || !Object.hasOwn(RATING_CODES, rating)) {
-    throw new InputError(`algorithm must be a name, or name:rating:a,b,...; got ${shown(text)}`);
+  if (!isWhole) {
+    throw new InputError(
+      `algorithm must be a name, or name:rating:a,b,..., perhaps with :scaling:judging; got ${shown(text)}`,
+    );
   }
   const pairs = coefficients?.flatMap((a, i) => (i % 2 ? [] : [[a, coefficients[i + 1]]])) ?? null;
-  return checkedAlgorithm({ name, rating: RATING_CODES[rating], objectives: pairs });
+  return checkedAlgorithm({ name, objectives: pairs, ...Object.fromEntries(choices) });
 }
 
 function writeAlgorithm(algorithm) {
-  if (ALGORITHMS[algorithm.name] === algorithm) return algorithm.name;
-  const rating = Object.keys(RATING_CODES).find((code) => RATING_CODES[code] === algorithm.rating);
-  return [algorithm.name, rating, algorithm.objectives?.flat().join() ?? "drawn"].join(":");
+  const { name, objectives, rating, scaling, judging } = algorithm;
+  if (ALGORITHMS[name] === algorithm) return name;
+  const parts = [name, codeOf(rating), objectives?.flat().join() ?? "drawn"];
+  const isPapers = scaling === CHOICES.scaling[0] && judging === CHOICES.judging[0];
+  return [...parts, ...(isPapers ? [] : [codeOf(scaling), codeOf(judging)])].join(":");
+}
+
+/** The word that stands for a choice: its first. */
+function codeOf(choice) {
+  return choice.split(" ")[0];
+}
+
+function choiceOf(name, code) {
+  return CHOICES[name].find((choice) => codeOf(choice) === code);
 }
 
 function readMaze(text) {

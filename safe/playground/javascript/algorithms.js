@@ -1,24 +1,32 @@
-// The paper's algorithms and its Table 1, as data (see safe/algorithms.py).
+// The paper's algorithms and its Table 1, as data, and the choices beyond the paper (see safe/algorithms.py).
 //
 // objectives: the objective functions [a, b] of the first generation; null draws as many as the parameters say.
 // rating: how objective functions are rated, and so bred; with "none" they stay as they are.
+// scaling: of what they weigh. judging: who selects parents.
 
-import { checkedChoice, checkedInteger, checkedProbability, checkedRows, InputError, MOST, shown } from "./checks.js";
-import { ARCHIVE_CAPACITY, K } from "./novelty.js";
+import { checkedChoice, checkedInteger, checkedNumber, checkedRows, InputError, MOST, shown } from "./checks.js";
+import { RATINGS, SCALINGS } from "./judges.js";
+import { ADMISSIONS, ARCHIVE_CAPACITY, K } from "./novelty.js";
+import { JUDGINGS } from "./operators.js";
 import { STEPS } from "./robot.js";
 
 export const COMPONENTS = ["1 / distance", "novelty"]; // what an objective function weighs
 export const GOAL = 0;
 export const NOVELTY = 1;
-export const RATINGS = ["none", "genotypic novelty"];
+export const CHOICES = { rating: RATINGS, scaling: SCALINGS, judging: JUDGINGS }; // of an algorithm
 
 export const ALGORITHMS = {
-  standard: { name: "standard", objectives: [[1, 0]], rating: "none" },
-  novelty: { name: "novelty", objectives: [[0, 1]], rating: "none" },
-  safe: { name: "safe", objectives: null, rating: "genotypic novelty" },
-  fixed: { name: "fixed", objectives: [[0.5, 0.5]], rating: "none" },
-  random: { name: "random", objectives: [], rating: "none" },
+  standard: completed({ name: "standard", objectives: [[1, 0]] }),
+  novelty: completed({ name: "novelty", objectives: [[0, 1]] }),
+  safe: completed({ name: "safe", rating: "genotypic novelty" }),
+  fixed: completed({ name: "fixed", objectives: [[0.5, 0.5]] }),
+  random: completed({ name: "random", objectives: [] }),
 };
+
+/** An algorithm with all that it does not say: the first of each of CHOICES. */
+function completed({ name, objectives = null, rating = RATINGS[0], scaling = SCALINGS[0], judging = JUDGINGS[0] }) {
+  return { name, objectives, rating, scaling, judging };
+}
 
 export const PARAMETERS = {
   population: 200, // solutions in a generation
@@ -32,17 +40,21 @@ export const PARAMETERS = {
   archive: ARCHIVE_CAPACITY, // places in each of the two novelty archives
   steps: STEPS, // that a robot takes
   success_distance: 2, // cells, taxicab: an end point this near to the goal is a success
+  // beyond the paper:
+  admission: ADMISSIONS[0], // what enters the archive of end points
+  admitted: 5, // solutions that enter it in each generation, with "random"
+  threshold: 6, // novelty above which they enter it at first, with "threshold"
 };
 export const PROBABILITIES = ["crossover", "mutation"];
 const MAY_BE_ZERO = ["elites", "archive", "success_distance"];
 
-/** An algorithm, checked: one of ALGORITHMS by its name, or { name, objectives, rating }. */
+/** An algorithm, checked: one of ALGORITHMS by its name, or { name, objectives, rating, scaling, judging }. */
 export function checkedAlgorithm(algorithm) {
   if (typeof algorithm !== "object" || algorithm === null) {
     return ALGORITHMS[checkedChoice("algorithm", algorithm, Object.keys(ALGORITHMS))];
   }
-  const { name, objectives = null, rating = "none" } = algorithm;
-  checkedChoice("rating", rating, RATINGS);
+  const whole = completed(algorithm), { objectives, rating } = whole;
+  for (const [choice, allowed] of Object.entries(CHOICES)) checkedChoice(choice, whole[choice], allowed);
   if (objectives !== null) {
     checkedRows("objectives", objectives, COMPONENTS.length);
     if (rating !== "none" && (objectives.length === 0 || objectives.length % 2)) {
@@ -51,7 +63,7 @@ export function checkedAlgorithm(algorithm) {
       );
     }
   }
-  return { name, objectives, rating };
+  return whole;
 }
 
 /** All parameters, checked: these, and the others as in the paper. */
@@ -59,7 +71,9 @@ export function checkedParameters(changes = {}) {
   for (const name of Object.keys(changes)) checkedChoice("the name of a parameter", name, Object.keys(PARAMETERS));
   const parameters = { ...PARAMETERS, ...changes };
   for (const [name, value] of Object.entries(parameters)) {
-    if (PROBABILITIES.includes(name)) checkedProbability(name, value);
+    if (name === "admission") checkedChoice(name, value, ADMISSIONS);
+    else if (name === "threshold") checkedNumber(name, value, 0, MOST);
+    else if (PROBABILITIES.includes(name)) checkedNumber(name, value, 0, 1);
     else checkedInteger(name, value, MAY_BE_ZERO.includes(name) ? 0 : 1, MOST);
   }
   for (const name of ["population", "objectives", "elites"]) {

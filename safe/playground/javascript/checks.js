@@ -39,10 +39,10 @@ export function checkedInteger(name, value, low, high = Infinity) {
   return value;
 }
 
-/** `value`, which must be a number in [0, 1]. */
-export function checkedProbability(name, value) {
-  if (typeof value !== "number" || !(value >= 0 && value <= 1)) {
-    throw new InputError(`${name} must be a number from 0 to 1; got ${shown(value)}`);
+/** `value`, which must be a number in [low, high]. */
+export function checkedNumber(name, value, low, high) {
+  if (typeof value !== "number" || !(value >= low && value <= high)) {
+    throw new InputError(`${name} must be a number from ${low} to ${high}; got ${shown(value)}`);
   }
   return value;
 }

@@ -2,7 +2,8 @@
 
 import { checkedAlgorithm, checkedParameters, COMPONENTS, GOAL, NOVELTY } from "./algorithms.js";
 import { InputError } from "./checks.js";
-import { Archive, neighboursOf, Occupancy, scoreCells, scorePoints } from "./novelty.js";
+import { bestScores, correlations, scale } from "./judges.js";
+import { admitAbove, admitDrawn, Archive, neighboursOf, Occupancy, scoreCells, scorePoints } from "./novelty.js";
 import { breed, drawGenomes } from "./operators.js";
 import { Sfc64 } from "./random.js";
 import { Walker, WEIGHTS } from "./robot.js";
@@ -13,7 +14,7 @@ export class Evolution {
   constructor(maze, algorithm, seed, parameters = {}) {
     this.maze = maze;
     this.parameters = checkedParameters(parameters);
-    const { objectives, rating } = checkedAlgorithm(algorithm);
+    const { objectives, rating, scaling, judging } = checkedAlgorithm(algorithm);
     const { population, archive, steps, tournament, elites, crossover, mutation } = this.parameters;
     this.rng = new Sfc64(seed);
 
@@ -25,22 +26,30 @@ export class Evolution {
     } else this.objectives = Float64Array.from(objectives.flat());
     const judges = this.objectives.length / COMPONENTS.length;
     this.isRandomSearch = judges === 0;
-    this.evolving = rating === "genotypic novelty";
+    this.rating = rating;
+    this.evolving = rating !== "none";
     if (this.evolving && elites >= judges) {
       throw new InputError(`elites must be fewer than the ${judges} objective functions; got ${elites}`);
     }
-    this.weighNovelty = this.evolving || this.objectives.some((c, i) => i % COMPONENTS.length === NOVELTY && c !== 0);
+    // can an objective function weigh it?
+    this.weighed = COMPONENTS.map((_, component) =>
+      this.evolving || this.objectives.some((c, i) => i % COMPONENTS.length === component && c !== 0)
+    );
     const rates = { tournament, elites, crossover, mutation };
-    this.breeding = { ...rates, low: -1, high: 1 };
+    this.breeding = { ...rates, low: -1, high: 1, judging };
     this.objectiveBreeding = { ...rates, low: 0, high: 1 };
 
     this.endpoints = new Float64Array(population * 2); // row and column
     this.distances = new Float64Array(population); // to the goal, taxicab
-    this.components = COMPONENTS.map(() => new Float64Array(population)); // what objective functions weigh
+    this.components = COMPONENTS.map(() => new Float64Array(population));
+    this.scaling = scaling;
+    // what objective functions weigh
+    this.scaled = scaling === "raw" ? this.components : COMPONENTS.map(() => new Float64Array(population));
     this.fitness = new Float64Array(population);
     this.winners = new Int32Array(population); // which objective function gave a solution its fitness
     this.archive = new Archive(archive, 2);
     this.archiveBefore = new Archive(archive, 2); // as it was before this generation was scored
+    this.threshold = { value: this.parameters.threshold, idle: 0 }; // of admission by threshold
     this.occupancy = new Occupancy(maze.height, maze.width); // of the archive's points
     this.objectiveFitness = new Float64Array(judges);
     this.objectiveArchive = new Archive(archive, COMPONENTS.length);
@@ -58,9 +67,11 @@ export class Evolution {
     this.number++;
     this.#evaluate();
     this.#keepBest();
-    if (this.evolving) {
+    if (this.rating === "genotypic novelty") {
       // Algorithm 2: the fitness of an objective function is the novelty of its genome
       scorePoints(this.objectives, this.objectiveArchive, this.parameters.k, false, this.objectiveFitness);
+    } else if (this.evolving) {
+      correlations(this.#judges, this.distances, this.rating === "spearman", this.objectiveFitness);
     }
     const isLast = this.number + 1 >= this.parameters.generations;
     // random search has no first success to stop at: it looks for the best of all that it may draw
@@ -93,7 +104,8 @@ export class Evolution {
       endpoints: rowsOf(this.endpoints, 2),
       distances: Array.from(this.distances),
       components: this.components.map((values) => Array.from(values)),
-      novelty: listed(this.components[NOVELTY], this.weighNovelty),
+      scaled: this.scaling === "raw" ? null : this.scaled.map((values) => Array.from(values)),
+      novelty: listed(this.components[NOVELTY], this.weighed[NOVELTY]),
       fitness: listed(this.fitness, !this.isRandomSearch),
       objectives: rowsOf(this.objectives, COMPONENTS.length),
       objectiveFitness: listed(this.objectiveFitness, this.evolving),
@@ -111,7 +123,18 @@ export class Evolution {
 
   /** The k nearest neighbours by which the i-th solution of this generation was scored: see `neighboursOf`. */
   neighbours(i) {
-    return neighboursOf(this.endpoints, this.distances.length, i, this.archiveBefore, this.parameters.k, true);
+    const { endpoints, distances, archiveBefore, parameters: { k } } = this;
+    return neighboursOf(endpoints, distances.length, i, archiveBefore, this.#isOffering ? i : 0, k, true);
+  }
+
+  /** Is each solution offered to the archive right after it is scored? */
+  get #isOffering() {
+    return this.parameters.admission === "lowest replaced";
+  }
+
+  /** The objective functions, and what they weigh. */
+  get #judges() {
+    return { objectives: this.objectives, components: this.scaled };
   }
 
   /** End points, components, fitness. */
@@ -129,28 +152,20 @@ export class Evolution {
       // at the goal itself 1 / distance has no value: it counts as at distance 1/2
       this.components[GOAL][i] = distance > 0 ? 1 / distance : 2;
     }
-    if (this.weighNovelty) {
-      this.archiveBefore.copyFrom(this.archive);
-      scoreCells(endpoints, this.archive, this.occupancy, parameters.k, this.components[NOVELTY]);
+    if (this.weighed[NOVELTY]) this.#scoreNovelty();
+    if (this.scaling !== "raw") {
+      this.components.forEach((values, c) => this.weighed[c] && scale(values, this.scaling, this.scaled[c]));
     }
-    if (!this.isRandomSearch) this.#bestScores();
+    if (!this.isRandomSearch) bestScores(this.#judges, this.fitness, this.winners);
   }
 
-  /** Algorithm 1: the fitness of S_i is max_j O_j(S_i), and the first such O_j is its winner. */
-  #bestScores() {
-    const { components, objectives, fitness, winners } = this;
-    const width = components.length, judges = objectives.length / width;
-    for (let i = 0; i < fitness.length; i++) {
-      fitness[i] = -Infinity;
-      for (let j = 0; j < judges; j++) {
-        let score = 0;
-        for (let c = 0; c < width; c++) score += objectives[j * width + c] * components[c][i]; // Equation 1
-        if (score > fitness[i]) {
-          fitness[i] = score;
-          winners[i] = j;
-        }
-      }
-    }
+  #scoreNovelty() {
+    const { endpoints, archive, occupancy, parameters: { k, admission, admitted } } = this;
+    const novelty = this.components[NOVELTY];
+    this.archiveBefore.copyFrom(archive);
+    scoreCells(endpoints, archive, occupancy, k, this.#isOffering, novelty);
+    if (admission === "random") admitDrawn(endpoints, archive, occupancy, admitted, this.rng, novelty);
+    else if (admission === "threshold") admitAbove(endpoints, archive, occupancy, this.threshold, novelty);
   }
 
   /** Keep the first solution that is nearer to the goal than all before it. */
@@ -170,10 +185,11 @@ export class Evolution {
   /** The next generation of solutions and, if they evolve, of objective functions. */
   #breedBoth() {
     if (this.isRandomSearch) return drawGenomes(this.rng, -1, 1, this.genomes);
-    breed(this.genomes, this.fitness, this.breeding, this.rng, this.offspring);
+    const judges = this.#judges;
+    breed(this.genomes, this.fitness, judges, this.breeding, this.rng, this.offspring);
     [this.genomes, this.offspring] = [this.offspring, this.genomes];
     if (this.evolving) {
-      breed(this.objectives, this.objectiveFitness, this.objectiveBreeding, this.rng, this.objectiveOffspring);
+      breed(this.objectives, this.objectiveFitness, judges, this.objectiveBreeding, this.rng, this.objectiveOffspring);
       [this.objectives, this.objectiveOffspring] = [this.objectiveOffspring, this.objectives];
     }
   }

@@ -2,7 +2,8 @@
 //
 // The novelty of a point is the sum of its distances to its k nearest neighbours, divided by k. The neighbours are all
 // other points of the population, and all points of an archive. The points of a generation are scored in order, and
-// each is offered to the archive right after its score is known.
+// each is offered to the archive right after its score is known. By the other rules of admission, to the archive of end
+// points, points enter only after all are scored, where the oldest leave.
 
 import { checkedChoice, checkedInteger, checkedRows, MOST } from "./checks.js";
 import { nearestDistances } from "./neighbours.js";
@@ -10,6 +11,11 @@ import { rowOf } from "./rows.js";
 
 export const K = 15;
 export const ARCHIVE_CAPACITY = 1000;
+export const ADMISSIONS = ["lowest replaced", "random", "threshold"];
+const MOST_ENTRIES = 4; // in a generation: if more enter, the threshold rises
+const RISE = 1.2;
+const MOST_IDLE = 2500; // evaluations without an entry: after them, the threshold falls
+const FALL = 0.95;
 
 /** An archive of points, and the novelty of new ones: as safe.NoveltyArchive. */
 export class NoveltyArchive {
@@ -70,16 +76,26 @@ export class Archive {
     return this.size < this.capacity ? this.size : this.lowest;
   }
 
-  /** Let the i-th of some points in, at the next place. */
-  enter(points, i, score) {
-    const { dimensions, scores, entry } = this;
-    const place = this.nextPlace;
+  /** Where the oldest point is, or the next free place, if no point ever enters elsewhere: round and round. */
+  get oldestPlace() {
+    return this.entered % this.capacity;
+  }
+
+  /** Let the i-th of some points in, at a place. */
+  put(place, points, i, score) {
+    const { dimensions } = this;
     for (let axis = 0; axis < dimensions; axis++) {
       this.points[place * dimensions + axis] = points[i * dimensions + axis];
     }
-    scores[place] = score;
-    entry[place] = this.entered++;
-    if (this.size < this.capacity) this.size++;
+    this.scores[place] = score;
+    this.entry[place] = this.entered++;
+    if (place === this.size) this.size++;
+  }
+
+  /** Let the i-th of some points in, at the next place. */
+  enter(points, i, score) {
+    const { scores, entry } = this;
+    this.put(this.nextPlace, points, i, score);
     if (this.size < this.capacity) return;
     let lowest = 0;
     for (let j = 1; j < this.size; j++) {
@@ -130,6 +146,14 @@ export class Occupancy {
     return (RINGS + cells[2 * i]) * this.width + RINGS + cells[2 * i + 1];
   }
 
+  /** Let the i-th of some cells into an archive, if it is full in place of the oldest. */
+  admit(archive, cells, i, score) {
+    const place = archive.oldestPlace;
+    if (place < archive.size) this.counts[this.place(archive.points, place)]--;
+    this.counts[this.place(cells, i)]++;
+    archive.put(place, cells, i, score);
+  }
+
   /** The summed distances from a place to the `wanted` nearest other points; -1 if not all are within the rings. */
   sumOverRings(place, wanted) {
     const { counts, width } = this;
@@ -152,21 +176,50 @@ export class Occupancy {
   }
 }
 
-/** Score cells by taxicab distance, in order, offering each to the archive. `occupancy` counts the archive's points. */
-export function scoreCells(cells, archive, occupancy, k, scores) {
+/** Score cells by taxicab distance, in order, offering each to the archive or none. `occupancy` counts its points. */
+export function scoreCells(cells, archive, occupancy, k, isOffering, scores) {
   const n = scores.length, { counts } = occupancy;
   for (let i = 0; i < n; i++) counts[occupancy.place(cells, i)]++;
   for (let i = 0; i < n; i++) {
     const place = occupancy.place(cells, i), wanted = Math.min(k, n - 1 + archive.size);
     const total = occupancy.sumOverRings(place, wanted);
     scores[i] = (total >= 0 ? total : sumOverAll(cells, n, i, archive, wanted)) / k;
-    if (scores[i] > archive.threshold) {
+    if (isOffering && scores[i] > archive.threshold) {
       if (archive.nextPlace < archive.size) counts[occupancy.place(archive.points, archive.nextPlace)]--;
       counts[place]++;
       archive.enter(cells, i, scores[i]);
     }
   }
   for (let i = 0; i < n; i++) counts[occupancy.place(cells, i)]--;
+}
+
+/** Admit so many cells, drawn with replacement, to the archive. */
+export function admitDrawn(cells, archive, occupancy, admitted, rng, scores) {
+  if (archive.capacity === 0) return;
+  for (let draw = 0; draw < admitted; draw++) {
+    const i = Math.floor(rng.random() * scores.length);
+    occupancy.admit(archive, cells, i, scores[i]);
+  }
+}
+
+/** Admit all cells above a threshold to the archive, and adapt it.
+ *
+ * threshold: { value, idle }; idle are the evaluations since the last entry or fall. */
+export function admitAbove(cells, archive, occupancy, threshold, scores) {
+  if (archive.capacity === 0) return;
+  let entered = 0;
+  for (let i = 0; i < scores.length; i++) {
+    if (scores[i] > threshold.value) {
+      occupancy.admit(archive, cells, i, scores[i]);
+      entered++;
+    }
+  }
+  threshold.idle = entered > 0 ? 0 : threshold.idle + scores.length;
+  if (entered > MOST_ENTRIES) threshold.value *= RISE;
+  else if (threshold.idle >= MOST_IDLE) {
+    threshold.value *= FALL;
+    threshold.idle = 0;
+  }
 }
 
 /** The same sum as of `sumOverRings`, by the distances of all cells and of the archive: how many are at each? */
@@ -217,11 +270,11 @@ export function scorePoints(points, archive, k, taxicab, scores, count = scores.
 
 /** The k nearest neighbours that the i-th of n points had when it was scored, the nearest first.
  *
- * archive: as it was before the generation. Returns { point, distance, from }; `from` is "population" or "archive". */
-export function neighboursOf(points, n, i, archive, k, taxicab) {
+ * archive: as it was before the generation, to which so many points had been offered by then. Returns { point, distance, from }; `from` is "population" or "archive". */
+export function neighboursOf(points, n, i, archive, offered, k, taxicab) {
   const met = new Archive(archive.capacity, archive.dimensions);
   met.copyFrom(archive);
-  scorePoints(points, met, k, taxicab, new Float64Array(n), i);
+  scorePoints(points, met, k, taxicab, new Float64Array(n), offered);
   const point = rowOf(points, i, archive.dimensions);
   const neighbours = [];
   const measure = (others, size, from, isItself) => {

@@ -63,7 +63,7 @@ function lineOf(evolution) {
   return {
     generation: evolution.number,
     distance: evolution.best.distance,
-    novelty: evolution.weighNovelty ? novelty.reduce((sum, value) => sum + value) / novelty.length : null,
+    novelty: evolution.weighed[NOVELTY] ? novelty.reduce((sum, value) => sum + value) / novelty.length : null,
     archive: evolution.archive.size,
     endpoint: evolution.best.endpoint,
   };
@@ -75,14 +75,14 @@ function inspect(evolution, i) {
   const isJudged = !evolution.isRandomSearch;
   const winner = isJudged ? evolution.winners[i] : null;
   const coefficients = isJudged ? rowOf(evolution.objectives, winner, COMPONENTS.length) : [];
-  const parts = coefficients.map((coefficient, c) => coefficient * evolution.components[c][i]);
+  const parts = coefficients.map((coefficient, c) => coefficient * evolution.scaled[c][i]);
   return {
     controller,
     endpoint: rowOf(evolution.endpoints, i, 2),
     route: evolution.route(controller),
     distance: evolution.distances[i],
-    novelty: evolution.weighNovelty ? evolution.components[NOVELTY][i] : null,
-    neighbours: evolution.weighNovelty ? evolution.neighbours(i) : [],
+    novelty: evolution.weighed[NOVELTY] ? evolution.components[NOVELTY][i] : null,
+    neighbours: evolution.weighed[NOVELTY] ? evolution.neighbours(i) : [],
     k: evolution.parameters.k,
     fitness: isJudged ? evolution.fitness[i] : null,
     winner,

@@ -13,6 +13,7 @@ import {
 import { Evolution } from "../../../safe/playground/javascript/evolution.js";
 import { drawingOf, waysToGoal } from "../../../safe/playground/javascript/maze.js";
 import { listOf, textOf } from "../../../safe/playground/javascript/maze_files.js";
+import { admitAbove, Archive, Occupancy } from "../../../safe/playground/javascript/novelty.js";
 
 const FUNCTIONS = {
   host: () => {
@@ -36,6 +37,13 @@ const FUNCTIONS = {
       scores: archive.scores,
       length: archive.length,
     }));
+  },
+  admitAbove: ({ threshold, scores }) => {
+    const archive = new Archive(5, 2), occupancy = new Occupancy(1, 1), kept = { value: threshold, idle: 0 };
+    return scores.map((generation) => {
+      admitAbove(new Float64Array(2 * generation.length), archive, occupancy, kept, generation);
+      return { ...kept, entered: archive.listed().scores };
+    });
   },
   evolve: ({ maze, algorithm, seed, parameters }) => evolve(parseMaze(maze), algorithm, seedOf(seed), parameters),
   generations: ({ maze, algorithm, seed, parameters }) => [
