@@ -4,6 +4,7 @@ All that it computes is compared with the package.
 """
 
 import re
+from dataclasses import replace
 from urllib.parse import quote
 
 import pytest
@@ -17,6 +18,8 @@ from tests.helpers.playground_page import (
     VIEWS,
     address_of,
     panel,
+    play_to_the_end,
+    status_of,
 )
 
 pytestmark = needs_browser
@@ -77,6 +80,46 @@ def test_the_address_holds_the_whole_state(visit):
     again = visit(page.evaluate("location.hash.slice(1)"))
     panel(again, "Standard EA").get_by_text("Generation 5").wait_for()
     assert panel(again, "Standard EA").inner_text() == panel(page, "Standard EA").inner_text()
+
+
+def test_choices_beyond_the_paper_reach_the_address_and_the_run(visit):
+    page = visit(f"view=watch&algorithm=safe&algorithm=random&seed=3&{QUICK}")
+    page.locator(".playground summary:visible").click()
+
+    def choose(label, option):
+        page.get_by_label(label).locator("visible=true").select_option(option)
+
+    many = page.get_by_label("how many, in each generation").locator("visible=true")
+    assert many.count() == 0
+    choose("what enters the archive", "some, drawn at random")
+    many.fill("9")
+    page.keyboard.press("Enter")
+    choose("what objective functions are bred for", "ranks that grow near the goal (Spearman)")
+    choose("how closeness and novelty are weighed", "as ranks from 0 to 1")
+    choose("who chooses parents", "one objective function, drawn each time")
+    address = address_of(page)
+    assert [value for key, value in address if key == "algorithm"] == ["safe:spearman:drawn:rank:drawn", "random"]
+    assert address[-2:] == [("admission", "random"), ("admitted", "9")]
+    page.get_by_role("checkbox", name="Novelty search (rank, drawn judge)").check()
+    play_to_the_end(page, "SAFE (spearman, rank, drawn judge)", "Novelty search (rank, drawn judge)")
+    parameters = replace(QUICK_PARAMETERS, admission="random", admitted=9)
+    choices = {"scaling": "rank", "judging": "drawn judge"}
+    for title, algorithm in (
+        ("SAFE (spearman, rank, drawn judge)", safe.Algorithm("safe", None, "spearman", **choices)),
+        ("Novelty search (rank, drawn judge)", safe.Algorithm("novelty", [(0, 1)], **choices)),
+        ("Random search", "random"),
+    ):
+        assert panel(page, title).inner_text() == status_of(safe.evolve("maze1", algorithm, 3, parameters))
+    choose("what enters the archive", "the most novel (paper)")
+    choose("what objective functions are bred for", "nothing: they stay as drawn")
+    unevolved = page.get_by_role("region", name="SAFE (unevolved, rank, drawn judge)")
+    assert unevolved.get_by_text("judged by other objective functions").is_visible()
+    choose("what objective functions are bred for", "being different (paper)")
+    choose("how closeness and novelty are weighed", "as they are (paper)")
+    choose("who chooses parents", "the best of all scores (paper)")
+    assert [value for key, value in address_of(page) if key == "algorithm"] == ["safe", "random", "novelty"]
+    page.get_by_role("checkbox", name="SAFE").uncheck()
+    assert page.get_by_label("what objective functions are bred for").locator("visible=true").is_disabled()
 
 
 def test_the_links_of_the_page_lead_to_what_they_say(visit, html):

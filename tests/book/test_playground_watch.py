@@ -4,11 +4,12 @@ All that it computes is compared with the package.
 """
 
 import re
+from dataclasses import replace
 
 import pytest
 
 import safe
-from tests.helpers.addresses import run_at
+from tests.helpers.addresses import algorithm_of, run_at
 from tests.helpers.browser import PHONE, needs_browser
 from tests.helpers.playground_page import (
     QUICK,
@@ -95,10 +96,17 @@ def test_charts_show_the_run_so_far(visit):
     assert square.locator(".winner").count() == len(set(now.winners.tolist()))
 
 
-@pytest.mark.parametrize("algorithm", ["safe", "novelty", "standard", "random"])
-def test_one_robot_is_explained(visit, algorithm):
-    generation = list(safe.generations("maze1", algorithm, 4, QUICK_PARAMETERS))[9]
-    page = visit(f"algorithm={algorithm}&seed=4&{QUICK}&generation=9")
+@pytest.mark.parametrize(
+    ("algorithm", "admission"),
+    [
+        *((name, "lowest replaced") for name in ("safe", "novelty", "standard", "random")),
+        ("safe:genotypic:drawn:rank:drawn", "random"),
+    ],
+)
+def test_one_robot_is_explained(visit, algorithm, admission):
+    parameters = replace(QUICK_PARAMETERS, admission=admission)
+    generation = list(safe.generations("maze1", algorithm_of(algorithm), 4, parameters))[9]
+    page = visit(f"algorithm={algorithm}&seed=4&{QUICK}&generation=9&admission={admission}")
     page.locator(".panel .status").get_by_text("Generation 9").wait_for()
     for individual in (0, 13):
         page.get_by_label("Robot", exact=True).fill(str(individual))
@@ -120,7 +128,8 @@ def test_one_robot_is_explained(visit, algorithm):
         assert f"by objective function {winner} with a = {float(f'{a:.3g}'):g} and b = {float(f'{b:.3g}'):g}" in text
         fitness = generation.fitness[individual]
         if fitness > 0:
-            share = a * generation.components[0, individual] / fitness
+            weighed = generation.components if generation.scaled is None else generation.scaled
+            share = a * weighed[0, individual] / fitness
             assert f"({100 * share:.1f} %) and" in text
         else:
             assert "%" not in text

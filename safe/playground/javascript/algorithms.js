@@ -66,6 +66,25 @@ export function checkedAlgorithm(algorithm) {
   return whole;
 }
 
+/** The one of ALGORITHMS that an algorithm is but for its choices; undefined if it is none of them. */
+export function baseOf({ name, objectives }) {
+  return Object.values(ALGORITHMS).find((base) => base.name === name && `${base.objectives}` === `${objectives}`);
+}
+
+/** May a reader change this choice of an algorithm? With nobody to judge, or to evolve, there is nothing to choose. */
+export function hasChoice(algorithm, choice) {
+  if (choice === "rating") return (baseOf(algorithm) ?? algorithm).rating !== "none";
+  return algorithm.objectives?.length !== 0;
+}
+
+/** An algorithm with other choices, those that it has; one of ALGORITHMS if it becomes that. */
+export function withChoices(algorithm, choices) {
+  const own = Object.entries(choices).filter(([choice]) => hasChoice(algorithm, choice));
+  const changed = checkedAlgorithm({ ...algorithm, ...Object.fromEntries(own) });
+  const isChanged = (other) => JSON.stringify(other) === JSON.stringify(changed);
+  return Object.values(ALGORITHMS).find(isChanged) ?? changed;
+}
+
 /** All parameters, checked: these, and the others as in the paper. */
 export function checkedParameters(changes = {}) {
   for (const name of Object.keys(changes)) checkedChoice("the name of a parameter", name, Object.keys(PARAMETERS));

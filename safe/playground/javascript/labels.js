@@ -1,6 +1,6 @@
 // What algorithms are called, and how they look.
 
-import { ALGORITHMS } from "./algorithms.js";
+import { baseOf, CHOICES } from "./algorithms.js";
 import { makeSvg } from "./dom.js";
 
 const LABELS = {
@@ -11,24 +11,24 @@ const LABELS = {
   random: { title: "Random search", summary: "rewards nothing: new robots, drawn by chance" },
 };
 
-/** Is this one of ALGORITHMS, and not another by the same name? */
-export function isNamedAlgorithm(algorithm) {
-  return ALGORITHMS[algorithm.name] === algorithm;
-}
-
-/** The title of an algorithm. */
+/** The title of an algorithm: that of one of ALGORITHMS, with the choices that depart from it. */
 export function titleOf(algorithm) {
-  return isNamedAlgorithm(algorithm) ? LABELS[algorithm.name].title : algorithm.name;
+  const base = baseOf(algorithm);
+  if (!base) return algorithm.name;
+  const departing = Object.keys(CHOICES).filter((choice) => algorithm[choice] !== base[choice]);
+  const texts = departing.map((choice) => (algorithm[choice] === "none" ? "unevolved" : algorithm[choice]));
+  return LABELS[base.name].title + (texts.length > 0 ? ` (${texts.join(", ")})` : "");
 }
 
 /** What an algorithm rewards, in a few words. */
 export function summaryOf(algorithm) {
-  return isNamedAlgorithm(algorithm) ? LABELS[algorithm.name].summary : "judged by other objective functions";
+  const base = baseOf(algorithm), isOther = !base || (base.rating !== "none" && algorithm.rating === "none");
+  return isOther ? "judged by other objective functions" : LABELS[base.name].summary;
 }
 
 /** The class in playground.css that gives an algorithm's dots and lines their looks. */
 export function kindOf(algorithm) {
-  return isNamedAlgorithm(algorithm) ? algorithm.name : "other";
+  return baseOf(algorithm) ? algorithm.name : "other";
 }
 
 /** A sample of the line by which charts show an algorithm. */
