@@ -179,7 +179,7 @@ def read_drawing(text: str, name: str) -> Maze:
                     f"G E 3 (goal), or a list that gives its size, or line segments; got {character!r} in row {number}"
                 )
     if any(" " in row for row in rows):
-        rows = _rows_with_blanks(lines, drawn)
+        rows = _rows_with_blanks(rows, lines, drawn)
     for number, row in enumerate(rows, start=1):
         if len(row) != len(rows[0]):
             raise ValueError(
@@ -223,9 +223,11 @@ def _lines(text: str) -> list[str]:
     return [re.sub(r"[^\S\t]", " ", line) for line in text.splitlines()]
 
 
-def _rows_with_blanks(lines: list[str], drawn: list[int]) -> list[str]:
-    """The rows of a drawing in which blanks are open cells; `drawn` counts, from 0, its lines that are not blank."""
-    rows = [lines[number].strip() for number in drawn]
+def _rows_with_blanks(rows: list[str], lines: list[str], drawn: list[int]) -> list[str]:
+    """The rows of a drawing in which blanks are open cells, from those without the blanks around them.
+
+    `drawn` counts, from 0, its lines that are not blank.
+    """
     for number, row in enumerate(rows, start=1):
         if "." in row or "0" in row:
             raise ValueError(

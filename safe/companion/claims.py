@@ -14,7 +14,7 @@ import pandas as pd
 from scipy import stats
 
 from safe.algorithms import COEFFICIENTS
-from safe.companion.paper import reported
+from safe.companion.paper import MAZES, reported
 from safe.companion.verdicts import UNTESTABLE
 from safe.experiments.experiment import WEIGHT_COLUMNS, Experiment
 from safe.maze import ways_to_goal
@@ -145,7 +145,7 @@ def _mean_claim(row: pd.Series, digits: int, **what: str) -> Claim:
 
 def _directions(results: Results) -> Iterator[Claim]:
     """Which of two experiments succeeds more often."""
-    more_often = product(("maze1", "maze2"), ("novelty", "safe"), ("standard", "random"))
+    more_often = product(MAZES, ("novelty", "safe"), ("standard", "random"))
     for maze, better, worse in [*more_often, ("maze1", "random", "standard")]:
         statement = f"{_capital(_NAMES[better])} succeeds more often than {_NAMES[worse]} on {maze}"
         yield from _pair(results, (maze, better), (maze, worse), statement, direction=1)
@@ -156,7 +156,7 @@ def _directions(results: Results) -> Iterator[Claim]:
 
 def _likenesses(results: Results) -> Iterator[Claim]:
     """Which of two experiments succeed equally often, as far as can be decided."""
-    for maze, (other, source) in product(("maze1", "maze2"), (("novelty", "Table 2"), ("fixed", "text"))):
+    for maze, (other, source) in product(MAZES, (("novelty", "Table 2"), ("fixed", "text"))):
         statement = f"SAFE succeeds as often as {_NAMES[other]} on {maze}"
         yield from _pair(results, (maze, "safe"), (maze, other), statement, source=source)
 

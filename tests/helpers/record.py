@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 import safe
-from safe.companion import ledger
+from safe.companion import ledger, paper
 from safe.experiments.experiment import COEFFICIENTS, WEIGHT_COLUMNS
 
 FILE = Path(__file__).parents[1] / "data" / "runs.npz"
@@ -22,7 +22,7 @@ SEEDS_OF_SECOND_LOOK = range(1, 5)
 
 def experiments():
     """Every experiment of the ledger's first look."""
-    return [safe.Experiment(algorithm, maze) for maze in ("maze1", "maze2") for algorithm in safe.ALGORITHMS]
+    return [safe.Experiment(algorithm, maze) for maze in paper.MAZES for algorithm in safe.ALGORITHMS]
 
 
 def repetitions(experiment):

@@ -93,7 +93,7 @@ function readDrawing(lines, name) {
       );
     }
   });
-  if (rows.some((row) => row.includes(" "))) rows = rowsWithBlanks(lines, drawn);
+  if (rows.some((row) => row.includes(" "))) rows = rowsWithBlanks(rows, lines, drawn);
   const width = rows[0].length;
   rows.forEach((row, i) => {
     if (row.length !== width) {
@@ -113,9 +113,11 @@ function readDrawing(lines, name) {
   return makeMaze(cells.map((cell) => (cell === 1 ? 1 : 0)), height, width, ...ends, name);
 }
 
-/** The rows of a drawing in which blanks are open cells; `drawn` counts, from 0, its lines that are not blank. */
-function rowsWithBlanks(lines, drawn) {
-  let rows = drawn.map((i) => [...lines[i].trim()]);
+/**
+ * The rows of a drawing in which blanks are open cells, from those without the blanks around them; `drawn` counts, from
+ * 0, its lines that are not blank.
+ */
+function rowsWithBlanks(rows, lines, drawn) {
   const both = rows.findIndex((row) => row.includes(".") || row.includes("0"));
   if (both >= 0) {
     throw new InputError(
