@@ -111,7 +111,9 @@ def robot(state: State, settings: Settings, rng: np.random.Generator, run: Recor
 @kernel
 def novelty(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.endpoints)):
-        score_cells(run.endpoints[g], state.archive, state.occupancy, settings.k, True, state.components[NOVELTY])
+        score_cells(
+            run.endpoints[g], state.archive, state.occupancy, settings.k, settings.admission, state.components[NOVELTY]
+        )
 
 
 @kernel

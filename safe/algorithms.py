@@ -157,7 +157,7 @@ class Parameters:
     steps: int = STEPS  # that a robot takes
     success_distance: int = 2  # cells, taxicab: an end point this near to the goal is a success
     # beyond the paper:
-    admission: str = "lowest replaced"  # what enters the archive of end points; or "random", or "threshold"
+    admission: str = "lowest replaced"  # what enters the archive of end points; see `safe.novelty`
     admitted: int = 5  # solutions that enter it in each generation, with "random"
     threshold: float = 6.0  # novelty above which they enter it at first, with "threshold"; Lehman and Stanley's
 

@@ -386,10 +386,10 @@ def evaluate(state: State, settings: Settings, rng: np.random.Generator) -> None
         # at the goal itself 1 / distance is undefined: it counts as at distance 1/2
         state.components[GOAL, i] = 1.0 / distance if distance > 0 else 2.0
     if settings.weighed[NOVELTY]:
-        novelty, is_papers = state.components[NOVELTY], settings.admission == LOWEST_REPLACED
-        score_cells(state.endpoints, state.archive, state.occupancy, settings.k, is_papers, novelty)
-        if not is_papers:
-            rule, admitted = settings.admission, settings.admitted
+        novelty, rule = state.components[NOVELTY], settings.admission
+        score_cells(state.endpoints, state.archive, state.occupancy, settings.k, rule, novelty)
+        if rule != LOWEST_REPLACED:
+            admitted = settings.admitted
             admit(state.endpoints, novelty, state.archive, state.occupancy, rule, admitted, state.threshold, rng)
     if settings.scaling != RAW:
         for c in range(len(state.components)):

@@ -12,15 +12,22 @@ score with which it entered.
 The same rule rates solutions, by the taxicab distance between end points, and objective functions, by the Euclidean
 distance between genomes (Section 6).
 
-For the archive of end points, there are two other rules of admission beside the paper's "lowest replaced". With both, a
-generation is scored against the population and the archive as it was before, nobody meets a point twice, and what
-enters, after all are scored, takes the place of the oldest if there is no other:
+For the archive of end points, there are other rules of admission beside the paper's "lowest replaced". With all of
+them, a generation is scored against the population and the archive as it was before, nobody meets a point twice, and
+points enter after all are scored. By two rules, what enters takes the place of the oldest if there is no other:
 
     random      solutions drawn with replacement enter, in the order drawn; their number is a parameter
     threshold   all whose novelty is above a threshold enter, in the order of the population (Lehman and Stanley, 2011).
                 The threshold, at first a parameter, rises by 20 % after a generation in which more than 4 enter, and
                 falls by 5 % after generations without an entry once they make 2500 evaluations, counted from the last
                 entry or fall
+
+The other three each change one thing about the paper's rule:
+
+    after scoring   points are offered, in the order of the population, after all are scored
+    distinct        as "after scoring", but no point enters a cell that the archive already holds
+    rescored        as "after scoring", but no score is kept from entry: in each generation the archive's points are
+                    scored like the population's, against the population and the rest of the archive
 
 Without places (a capacity of 0) nothing is drawn, enters or changes. The archive of objective functions always keeps
 the paper's rule.
@@ -40,8 +47,9 @@ from safe.neighbours import even_reach, grid_over, look_around, smallest, sort_i
 METRICS = ("taxicab", "euclidean")
 K = 15
 ARCHIVE_CAPACITY = 1000
-ADMISSIONS = ("lowest replaced", "random", "threshold")  # to the archive of end points
-LOWEST_REPLACED, RANDOM, THRESHOLD = range(len(ADMISSIONS))
+# to the archive of end points
+ADMISSIONS = ("lowest replaced", "random", "threshold", "after scoring", "distinct", "rescored")
+LOWEST_REPLACED, RANDOM, THRESHOLD, AFTER_SCORING, DISTINCT, RESCORED = range(len(ADMISSIONS))
 MOST_ENTRIES = 4  # in a generation: if more enter, the threshold rises
 RISE = 1.2
 MOST_IDLE = 2500  # evaluations without an entry: after them, the threshold falls
@@ -54,7 +62,7 @@ class ArchiveArrays(NamedTuple):
     """An archive as the compiled functions take it; changed in place."""
 
     points: np.ndarray  # float64, (dimensions, capacity)
-    scores: np.ndarray  # float64, (capacity,), as they were on entry
+    scores: np.ndarray  # float64, (capacity,), as they were on entry, unless they are computed anew
     entry: np.ndarray  # int64, (capacity,), 0 for the first point that ever entered
     heap: np.ndarray  # int64, (capacity,), places as a binary heap: the lowest score first, the oldest on a tie
     counts: np.ndarray  # int64, (2,): points in it now, points that ever entered
@@ -174,34 +182,53 @@ def archived(archive: ArchiveArrays) -> tuple[np.ndarray, np.ndarray]:
 
 @kernel
 def score_cells(
-    cells: np.ndarray, archive: ArchiveArrays, occupancy: np.ndarray, k: int, offering: bool, scores: np.ndarray
+    cells: np.ndarray, archive: ArchiveArrays, occupancy: np.ndarray, k: int, admission: int, scores: np.ndarray
 ) -> None:
-    """Score cells (int64, (n, 2), row and column) by taxicab distance, in order, offering each to the archive or none.
+    """Score cells (int64, (n, 2), row and column) by taxicab distance, in order.
 
-    `occupancy` (see `empty_occupancy`) counts the archive's points in each cell, on entry and on return.
+    By the paper's rule, each is offered to the archive. By others, none is (see `admit`). `occupancy` (see
+    `empty_occupancy`) counts the archive's points in each cell, on entry and on return.
     """
     n = len(cells)
+    offering = admission == LOWEST_REPLACED
     for i in range(n):
         occupancy[RINGS + cells[i, 0], RINGS + cells[i, 1]] += 1
-    size = archive.counts[0]
     threshold = threshold_of(archive) if offering else np.inf
     for i in range(n):
         row, column = cells[i, 0], cells[i, 1]
-        wanted = min(k, n - 1 + size)
-        total = _sum_over_rings(RINGS + row, RINGS + column, occupancy, wanted)
-        if total < 0:
-            total = _sum_over_all(row, column, occupancy, cells, archive.points, size, wanted)
-        scores[i] = total / k
+        scores[i] = _score_cell(row, column, occupancy, cells, archive, k)
         if scores[i] > threshold:
-            place = vacate(archive)
-            if place < size:
-                occupancy[RINGS + int(archive.points[0, place]), RINGS + int(archive.points[1, place])] -= 1
-            occupancy[RINGS + row, RINGS + column] += 1
-            enter(archive, place, cells[i], scores[i])
-            size = archive.counts[0]
+            replace_lowest(cells[i], scores[i], archive, occupancy)
             threshold = threshold_of(archive)
+    if admission == RESCORED:
+        for place in range(archive.counts[0]):
+            row, column = int(archive.points[0, place]), int(archive.points[1, place])
+            archive.scores[place] = _score_cell(row, column, occupancy, cells, archive, k)
+        sort_heap(archive)
     for i in range(n):
         occupancy[RINGS + cells[i, 0], RINGS + cells[i, 1]] -= 1
+
+
+@kernel
+def _score_cell(
+    row: int, column: int, occupancy: np.ndarray, cells: np.ndarray, archive: ArchiveArrays, k: int
+) -> float:
+    """The novelty of one of the points, in the population or in the archive, that `occupancy` counts."""
+    wanted = min(k, len(cells) - 1 + archive.counts[0])
+    total = _sum_over_rings(RINGS + row, RINGS + column, occupancy, wanted)
+    if total < 0:
+        total = _sum_over_all(row, column, occupancy, cells, archive.points, archive.counts[0], wanted)
+    return total / k
+
+
+@kernel
+def replace_lowest(cell: np.ndarray, score: float, archive: ArchiveArrays, occupancy: np.ndarray) -> None:
+    """Let a cell into the archive, at a free place or that of the lowest score."""
+    place = vacate(archive)
+    if place < archive.counts[0]:
+        occupancy[RINGS + int(archive.points[0, place]), RINGS + int(archive.points[1, place])] -= 1
+    occupancy[RINGS + cell[0], RINGS + cell[1]] += 1
+    enter(archive, place, cell, score)
 
 
 @kernel
@@ -215,13 +242,20 @@ def admit(
     threshold: np.ndarray,
     rng: np.random.Generator,
 ) -> None:
-    """Admit scored cells to the archive, by a rule other than the paper's; places are taken round and round.
+    """Admit scored cells to the archive, by a rule other than the paper's.
 
-    `threshold` holds it, and the evaluations since the last entry or fall; both are changed in place.
+    Where the oldest leave, places are taken round and round. `threshold` holds it, and the evaluations since the last
+    entry or fall; both are changed in place.
     """
     points, archived_scores, entry, _, counts = archive
     n, capacity, entered = len(cells), len(archived_scores), counts[1]
     if capacity == 0:
+        return
+    if admission >= AFTER_SCORING:
+        for i in range(n):
+            is_held = admission == DISTINCT and occupancy[RINGS + cells[i, 0], RINGS + cells[i, 1]] > 0
+            if scores[i] > threshold_of(archive) and not is_held:
+                replace_lowest(cells[i], scores[i], archive, occupancy)
         return
     for turn in range(admitted if admission == RANDOM else n):
         i = int(rng.random() * n) if admission == RANDOM else turn
@@ -350,35 +384,60 @@ def vacate(archive: ArchiveArrays) -> int:
 @kernel
 def enter(archive: ArchiveArrays, place: int, point: np.ndarray, score: float) -> None:
     """Let a point into the archive, at the place that `vacate` returned."""
-    points, scores, entry, heap, counts = archive
+    points, scores, entry, _, counts = archive
     for axis in range(len(point)):
         points[axis, place] = point[axis]
     scores[place] = score
     entry[place] = counts[1]
     counts[1] += 1
-    if place == counts[0]:  # it was free: the point rises from the end of the heap
-        node = place
-        while node > 0 and score < scores[heap[(node - 1) // 2]]:
-            heap[node] = heap[(node - 1) // 2]
-            node = (node - 1) // 2
+    if place == counts[0]:  # it was free
         counts[0] += 1
-    else:  # it was that of the lowest: the point sinks from the top
-        node = 0
-        child = _lower_child(archive, node)
-        while child >= 0 and scores[heap[child]] <= score:  # it is the youngest of equals
-            heap[node] = heap[child]
-            node = child
-            child = _lower_child(archive, node)
+        _rise(archive, place, place)
+    else:  # it was that of the lowest
+        _sink(archive, place)
+
+
+@kernel
+def sort_heap(archive: ArchiveArrays) -> None:
+    """Make the heap anew, after scores have changed."""
+    for place in range(archive.counts[0]):
+        _rise(archive, place, place)
+
+
+@kernel
+def _rise(archive: ArchiveArrays, place: int, node: int) -> None:
+    """Put a place into the heap at a node, the last so far, and let it rise as far as it has to."""
+    heap = archive.heap
+    while node > 0 and _is_lower(archive, place, heap[(node - 1) // 2]):
+        heap[node] = heap[(node - 1) // 2]
+        node = (node - 1) // 2
     heap[node] = place
 
 
 @kernel
+def _sink(archive: ArchiveArrays, place: int) -> None:
+    """Put a place into the heap at the top, and let it sink as far as it has to."""
+    heap, node = archive.heap, 0
+    child = _lower_child(archive, node)
+    while child >= 0 and _is_lower(archive, heap[child], place):
+        heap[node] = heap[child]
+        node = child
+        child = _lower_child(archive, node)
+    heap[node] = place
+
+
+@kernel
+def _is_lower(archive: ArchiveArrays, one: int, other: int) -> bool:
+    """Has one place a lower score than another, or the same and an older point?"""
+    scores, entry = archive.scores, archive.entry
+    return scores[one] < scores[other] or (scores[one] == scores[other] and entry[one] < entry[other])
+
+
+@kernel
 def _lower_child(archive: ArchiveArrays, node: int) -> int:
-    """The child of a node of the heap with the lower score, the older one on a tie; -1 if it has none."""
-    _, scores, entry, heap, counts = archive
+    """The child of a node of the heap that is lower; -1 if it has none."""
+    heap, counts = archive.heap, archive.counts
     left, right = 2 * node + 1, 2 * node + 2
     if right >= counts[0]:
         return left if left < counts[0] else -1
-    one, other = heap[left], heap[right]
-    is_other = scores[other] < scores[one] or (scores[other] == scores[one] and entry[other] < entry[one])
-    return right if is_other else left
+    return right if _is_lower(archive, heap[right], heap[left]) else left

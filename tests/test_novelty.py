@@ -8,7 +8,11 @@ from hypothesis import strategies as st
 
 from safe import NoveltyArchive
 from safe.novelty import (
+    AFTER_SCORING,
+    DISTINCT,
+    LOWEST_REPLACED,
     RANDOM,
+    RESCORED,
     RINGS,
     THRESHOLD,
     admit,
@@ -50,7 +54,7 @@ def test_every_reference_score_by_counting_cells():
     archive, occupancy = empty_archive(1000, 2), empty_occupancy((100, 100))
     for cells, scores in zip(generations, expected, strict=True):
         got = np.empty(len(cells))
-        score_cells(cells, archive, occupancy, 15, True, got)
+        score_cells(cells, archive, occupancy, 15, LOWEST_REPLACED, got)
         np.testing.assert_allclose(got, scores, rtol=0, atol=1e-12)
 
 
@@ -67,7 +71,7 @@ def test_counting_cells_gives_the_scores_and_the_archive_of_measuring_points(gen
     occupancy = empty_occupancy((8, 8))
     for generation in generations:
         scores = np.empty(len(generation))
-        score_cells(generation, cells, occupancy, k, True, scores)
+        score_cells(generation, cells, occupancy, k, LOWEST_REPLACED, scores)
         assert scores.tolist() == points.score(generation).tolist()
         assert archived(cells)[0].tolist() == points.points.tolist() or len(points) == 0
         assert archived(cells)[1].tolist() == points.scores.tolist()
@@ -101,13 +105,14 @@ def test_admission_at_random_or_by_threshold_is_that_of_the_oracle(generations, 
     threshold, expected_threshold = np.array([admitted_or_threshold, 0.0]), oracle.Threshold(admitted_or_threshold)
     for cells in generations:
         scores = np.empty(len(cells))
-        score_cells(cells, archive, occupancy, k, False, scores)
+        rule = RANDOM if isinstance(admitted_or_threshold, int) else THRESHOLD
+        score_cells(cells, archive, occupancy, k, rule, scores)
         assert scores.tolist() == oracle.novelty(cells.tolist(), expected, k, oracle.taxicab, offering=False)
-        if isinstance(admitted_or_threshold, int):
-            admit(cells, scores, archive, occupancy, RANDOM, admitted_or_threshold, threshold, rng)
+        if rule == RANDOM:
+            admit(cells, scores, archive, occupancy, rule, admitted_or_threshold, threshold, rng)
             oracle.admit_drawn(cells.tolist(), scores.tolist(), expected, admitted_or_threshold, twin)
         else:
-            admit(cells, scores, archive, occupancy, THRESHOLD, 5, threshold, rng)
+            admit(cells, scores, archive, occupancy, rule, 5, threshold, rng)
             expected_threshold.admit(cells.tolist(), scores.tolist(), expected)
         points, kept = archived(archive)
         assert points.tolist() == [point for _, _, point in expected.members]
@@ -115,6 +120,28 @@ def test_admission_at_random_or_by_threshold_is_that_of_the_oracle(generations, 
         assert (occupancy == occupied(archive)).all()
         assert threshold.tolist() == [expected_threshold.value, expected_threshold.idle]
     assert rng.random() == twin.random()
+
+
+@given(
+    GENERATIONS_OF_CELLS.map(lambda generations: [cells for cells in generations if len(cells)]),
+    st.integers(0, 12),
+    st.integers(1, 20),
+    st.sampled_from([AFTER_SCORING, DISTINCT, RESCORED]),
+)
+def test_admission_after_scoring_is_that_of_the_oracle(generations, capacity, k, rule):
+    archive, expected, occupancy = empty_archive(capacity, 2), oracle.Archive(capacity), empty_occupancy((8, 8))
+    for cells in generations:
+        points, scores = cells.tolist(), np.empty(len(cells))
+        score_cells(cells, archive, occupancy, k, rule, scores)
+        assert scores.tolist() == oracle.novelty(points, expected, k, oracle.taxicab, offering=False)
+        if rule == RESCORED:
+            expected.rescore(points, k, oracle.taxicab)
+        admit(cells, scores, archive, occupancy, rule, 5, np.zeros(2), generator(0))
+        oracle.admit_after_scoring(points, scores.tolist(), expected, rule == DISTINCT)
+        assert archived(archive)[0].tolist() == [point for _, _, point in expected.members]
+        assert archived(archive)[1].tolist() == [score for score, _, _ in expected.members]
+        assert (occupancy == occupied(archive)).all()
+        assert rule != DISTINCT or archive.counts[0] == 0 or occupancy.max() == 1
 
 
 @given(st.integers(1, 30), st.integers(1, 9), st.lists(st.integers(1, 9), min_size=1, max_size=5))
@@ -143,7 +170,7 @@ def test_the_threshold_rises_and_falls(population, entries):
         assert threshold[0] == expected
 
 
-@pytest.mark.parametrize("admission", [RANDOM, THRESHOLD])
+@pytest.mark.parametrize("admission", [RANDOM, THRESHOLD, AFTER_SCORING, DISTINCT, RESCORED])
 def test_without_places_no_rule_of_admission_does_anything(admission):
     cells, archive, occupancy = np.zeros((9, 2), dtype=np.int64), empty_archive(0, 2), empty_occupancy((8, 8))
     rng, threshold = generator(1), np.array([0.5, 0.0])
@@ -160,7 +187,7 @@ def test_cells_far_apart_have_the_scores_of_points():
     for _ in range(4):
         generation = rng.integers(0, (900, 700), (30, 2))
         scores = np.empty(30)
-        score_cells(generation, cells, occupancy, 4, True, scores)
+        score_cells(generation, cells, occupancy, 4, LOWEST_REPLACED, scores)
         assert scores.tolist() == points.score(generation).tolist()
         assert archived(cells)[0].tolist() == points.points.tolist()
 

@@ -16,6 +16,7 @@ import numpy as np
 import safe
 from safe.evolution import RULES
 from safe.judges import RATINGS
+from safe.novelty import ADMISSIONS
 
 FILE = Path(__file__).parents[1] / "data" / "golden_runs.json"
 SEEDS = {"maze1": (1, 2), "maze2": (3,)}
@@ -35,7 +36,7 @@ def golden_choices():
     for algorithm, parameters in (
         *(
             ("novelty", parameters)
-            for parameters in ({"admission": "random"}, {"admission": "threshold"}, {"archive": 0})
+            for parameters in (*({"admission": admission} for admission in ADMISSIONS[1:]), {"archive": 0})
         ),
         *(({"name": "mine", "rating": "genotypic novelty"} | choice, {}) for choice in algorithms),
         (

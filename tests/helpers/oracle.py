@@ -105,6 +105,15 @@ class Archive:
         self.members.append((score, self.entered, point))
         self.entered += 1
 
+    def rescore(self, points, k, distance):
+        """Give every member the novelty that it has now, among the points of a generation and the other members."""
+        members = [member for _, _, member in self.members]
+        scores = []
+        for i, point in enumerate(members):
+            others = [*points, *members[:i], *members[i + 1 :]]
+            scores.append(sum(sorted(distance(point, other) for other in others)[:k]) / k)
+        self.members = [(score, *member[1:]) for score, member in zip(scores, self.members, strict=True)]
+
     def enter_for_the_oldest(self, point, score):
         if self.capacity:
             self.enter(point, score)
@@ -137,6 +146,12 @@ def admit_drawn(points, scores, archive, admitted, rng):
     if archive.capacity:
         for i in [index(rng, len(points)) for _ in range(admitted)]:
             archive.enter_for_the_oldest(points[i], scores[i])
+
+
+def admit_after_scoring(points, scores, archive, are_distinct):
+    for point, score in zip(points, scores, strict=True):
+        if not (are_distinct and point in [member for _, _, member in archive.members]):
+            archive.offer(point, score)
 
 
 def novelty(points, archive, k, distance, offering=True):
@@ -284,6 +299,10 @@ def evolve(drawing, algorithm, parameters, rng):
                 admit_drawn(ends, novelties, archive, parameters.admitted, rng)
             if parameters.admission == "threshold":
                 threshold.admit(ends, novelties, archive)
+            if parameters.admission == "rescored":
+                archive.rescore(ends, parameters.k, taxicab)
+            if parameters.admission in ("after scoring", "distinct", "rescored"):
+                admit_after_scoring(ends, novelties, archive, parameters.admission == "distinct")
         components = list(zip(*(scale(values, algorithm.scaling) for values in (nearness, novelties)), strict=True))
         panel = [[score(objective, of_one) for of_one in components] for objective in objectives]
         fitness = [max(scores) for scores in zip(*panel, strict=True)]
