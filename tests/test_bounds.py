@@ -7,7 +7,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 KERNEL_TESTS = [
-    f"tests/test_{name}.py" for name in ("robot", "neighbours", "novelty", "judges", "operators", "evolution")
+    *(f"tests/test_{name}.py" for name in ("robot", "neighbours", "novelty", "judges", "operators", "evolution")),
+    "tests/results/test_mechanism.py",
 ]
 
 

@@ -1,9 +1,8 @@
-"""What selects solutions inside a run: measures of each generation, and their means over windows of a run.
+"""What selects solutions inside a run: measures of each generation, and their means over windows of the run.
 
-Everything is measured on the generations that `Experiment.replay` or `safe.generations` gives. What tournaments
-favour is measured by holding them: as many as TOURNAMENTS in each generation, of the run's size and rule (see
-`safe.operators`), with draws that depend only on the generation's number. So the same generation gives the same
-measures in every run, and they change nothing in it.
+They are computed from the generations that `Experiment.replay` gives, and change nothing in the run. To measure what
+tournaments favour, TOURNAMENTS of them are held in each generation, of the run's size and by its rule (see
+`safe.operators`). Their random numbers come from Generator(SFC64([number of the generation])), the same in every run.
 
 Floating-point numbers are added up in one order, in compiled functions, so that every machine gives the same bits.
 """
@@ -54,7 +53,7 @@ MEASURES = {
     "archived_neighbours": "share of solutions' k nearest neighbours that are in the archive, mean over solutions",
     "end_cells": "distinct cells in which robots have ended since the start of the run",
     "path_cells": "distinct cells that robots have visited since the start of the run",
-    "progress": "share of the shortest way from start to goal that robots have covered since the start of the run",
+    "progress": "1 - fewest steps to the goal from a cell visited since the start of the run / steps from the start",
 }
 SINCE_START = ("end_cells", "path_cells", "progress")
 
@@ -84,16 +83,16 @@ def observe(experiment: Experiment, story: Iterable[Generation]) -> pd.DataFrame
     The k nearest neighbours of a solution are found among the others of the population and the points in the archive
     after the generation. If more are equally far than still count, each counts for its part.
 
+    `entered` counts, cell by cell, the points that the archive holds beyond those of a generation before. A point that
+    replaces one in the same cell does not count.
+
     Examples
     --------
     >>> from safe import Parameters
     >>> experiment = Experiment("novelty", "maze1", parameters=Parameters(generations=3))
-    >>> observe(experiment, experiment.replay(0))[["by_novelty", "archive_size", "entered"]]
-                by_novelty  archive_size  entered
-    generation
-    0                  1.0         200.0    200.0
-    1                  1.0         400.0    200.0
-    2                  1.0         600.0    200.0
+    >>> table = observe(experiment, experiment.replay(0))
+    >>> table[["by_novelty", "archive_size", "entered"]].loc[2].to_dict()
+    {'by_novelty': 1.0, 'archive_size': 600.0, 'entered': 200.0}
     """
     maze, steps = experiment.maze, experiment.parameters.steps
     ways, space = ways_to_goal(maze), walk_space(maze.shape, steps)
@@ -128,13 +127,19 @@ def by_window(table: pd.DataFrame) -> pd.DataFrame:
         The mean of each measure over the window's generations, without those in which it is not a number; the last
         value of measures since the start of the run (SINCE_START).
     """
-    first = np.array(WINDOWS)[np.searchsorted(WINDOWS, table.index, side="right") - 1]
-    grouped = table.groupby(pd.Index(first, name="generation"))
-    return grouped.agg({name: "last" if name in SINCE_START else _mean_of_numbers for name in table})
+    window = np.searchsorted(WINDOWS, table.index, side="right") - 1
+    reached = np.unique(window)
+    columns = {
+        name: [
+            values[window == w][-1] if name in SINCE_START else _mean_of_numbers(values[window == w]) for w in reached
+        ]
+        for name, values in zip(table, table.to_numpy().T, strict=True)
+    }
+    return pd.DataFrame(columns, pd.Index(WINDOWS, name="generation")[reached], dtype=np.float64)
 
 
-def _mean_of_numbers(column: pd.Series) -> float:
-    numbers = column.to_numpy()[column.notna()]
+def _mean_of_numbers(values: np.ndarray) -> float:
+    numbers = values[~np.isnan(values)]
     return moments(numbers)[0] if len(numbers) else np.nan
 
 
@@ -201,6 +206,8 @@ def _archive(generation: Generation, held: np.ndarray, held_before: np.ndarray, 
 
 
 # Compiled functions
+#
+# They call only each other and kernels of the science. An edit of either has them compiled anew (see `safe.kernel`).
 
 
 @kernel
@@ -228,13 +235,12 @@ def hold_tournaments(
     drawn: np.ndarray,
     winners: np.ndarray,
 ) -> None:
-    """Hold a tournament for each row of `drawn`, which tells who took part.
+    """Hold a tournament for each row of `drawn`, and put those who take part into this row.
 
-    `twin` is a generator in the state of `rng`. It draws a second time what the tournament has drawn.
+    `twin` is a generator in the state of `rng`, and draws once more what a tournament has drawn.
     """
-    n = len(fitness)
+    n, size = len(fitness), drawn.shape[1]
     for t in range(len(drawn)):
-        size = drawn.shape[1]
         if is_judge_drawn:
             winners[t] = judged_tournament(judges, n, size, rng)
         else:
@@ -265,48 +271,48 @@ def differential(values: np.ndarray, winners: np.ndarray) -> float:
 
 
 @kernel
-def share_archived(cells: np.ndarray, living: np.ndarray, held: np.ndarray, k: int) -> float:
-    """The share of archived points among the k nearest neighbours, averaged over the cells of a population.
+def share_archived(cells: np.ndarray, alive: np.ndarray, held: np.ndarray, k: int) -> float:
+    """The share of archived points among the k nearest neighbours, averaged over a population's cells.
 
-    `living` and `held` count the population's points and the archived ones in each cell of the maze.
+    `alive` and `held` count the points of the population and of the archive in each cell of the maze.
     """
-    total = 0.0
     wanted = min(k, len(cells) - 1 + held.sum())
+    total = 0.0
     for i in range(len(cells)):
-        total += _share_archived(cells[i, 0], cells[i, 1], living, held, wanted)
+        total += _share_archived(cells[i, 0], cells[i, 1], alive, held, wanted)
     return total / len(cells)
 
 
 @kernel
-def _share_archived(row: int, column: int, living: np.ndarray, held: np.ndarray, wanted: int) -> float:
-    """The same for one of the points that `living` counts."""
+def _share_archived(row: int, column: int, alive: np.ndarray, held: np.ndarray, wanted: int) -> float:
+    """The same share for one of the points that `alive` counts."""
     found, archived, radius = 0, 0.0, 0
     while found < wanted:
-        alive, dead = _on_ring(row, column, radius, living, held)
+        in_population, in_archive = _on_ring(row, column, radius, alive, held)
         if radius == 0:
-            alive -= 1  # the point itself
-        counting = min(alive + dead, wanted - found)
+            in_population -= 1  # the point itself
+        counting = min(in_population + in_archive, wanted - found)
         if counting > 0:
-            archived += dead * counting / (alive + dead)
+            archived += in_archive * counting / (in_population + in_archive)
             found += counting
         radius += 1
     return archived / wanted
 
 
 @kernel
-def _on_ring(row: int, column: int, radius: int, living: np.ndarray, held: np.ndarray) -> tuple[int, int]:
-    """The numbers of living and archived points at a taxicab distance from a cell."""
-    height, width = living.shape
-    alive, dead = 0, 0
+def _on_ring(row: int, column: int, radius: int, alive: np.ndarray, held: np.ndarray) -> tuple[int, int]:
+    """The numbers of points, in the population and in the archive, at a taxicab distance from a cell."""
+    height, width = alive.shape
+    in_population, in_archive = 0, 0
     for r in range(max(row - radius, 0), min(row + radius, height - 1) + 1):
         aside = radius - abs(r - row)
         if column >= aside:
-            alive += living[r, column - aside]
-            dead += held[r, column - aside]
+            in_population += alive[r, column - aside]
+            in_archive += held[r, column - aside]
         if aside > 0 and column + aside < width:
-            alive += living[r, column + aside]
-            dead += held[r, column + aside]
-    return alive, dead
+            in_population += alive[r, column + aside]
+            in_archive += held[r, column + aside]
+    return in_population, in_archive
 
 
 @kernel
