@@ -3,7 +3,7 @@
 // The novelty of a point is the sum of its distances to its k nearest neighbours, divided by k. The neighbours are all
 // other points of the population, and all points of an archive. The points of a generation are scored in order, and
 // each is offered to the archive right after its score is known. By the other rules of admission, to the archive of end
-// points, points enter only after all are scored: by "random" and "threshold" the oldest leave, by the others the lowest.
+// points, points enter only after all are scored: "random" and "threshold" replace the oldest, the others the lowest.
 
 import { checkedChoice, checkedInteger, checkedRows, MOST } from "./checks.js";
 import { nearestDistances } from "./neighbours.js";
@@ -253,8 +253,7 @@ export function admitAfterScoring(cells, archive, occupancy, areDistinct, scores
   }
 }
 
-/** The same sum as of `sumOverRings`, for the i-th of some points, by the distances of all cells and of the archive: how
- * many are at each? */
+/** The same sum as of `sumOverRings`, for the i-th of some points: how many others are at each distance? */
 function sumOverAll(points, i, cells, n, archive, wanted) {
   const atDistance = [-1]; // without the point itself
   const count = (others, size) => {
@@ -302,7 +301,8 @@ export function scorePoints(points, archive, k, taxicab, scores, count = scores.
 
 /** The k nearest neighbours that the i-th of n points had when it was scored, the nearest first.
  *
- * archive: as it was before the generation, to which so many points had been offered by then. Returns { point, distance, from }; `from` is "population" or "archive". */
+ * archive: as it was before the generation, to which so many points had been offered by then.
+ * Returns { point, distance, from }; `from` is "population" or "archive". */
 export function neighboursOf(points, n, i, archive, offered, k, taxicab) {
   const met = new Archive(archive.capacity, archive.dimensions);
   met.copyFrom(archive);
