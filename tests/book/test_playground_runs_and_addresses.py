@@ -10,6 +10,7 @@ from urllib.parse import quote
 import pytest
 
 import safe
+from safe.novelty import ADMISSIONS
 from safe.results import statistics
 from tests.helpers.browser import needs_browser
 from tests.helpers.playground_page import (
@@ -91,6 +92,9 @@ def test_choices_beyond_the_paper_reach_the_address_and_the_run(visit):
 
     many = page.get_by_label("how many, in each generation").locator("visible=true")
     assert many.count() == 0
+    rules = page.get_by_label("what enters the archive").locator("visible=true").locator("option")
+    assert [rule.get_attribute("value") for rule in rules.all()] == list(ADMISSIONS)
+    assert "undefined" not in page.locator(".playground option").all_inner_texts()
     choose("what enters the archive", "some, drawn at random")
     many.fill("9")
     page.keyboard.press("Enter")

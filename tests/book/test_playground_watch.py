@@ -5,6 +5,7 @@ All that it computes is compared with the package.
 
 import re
 from dataclasses import replace
+from decimal import ROUND_HALF_UP, Context
 
 import pytest
 
@@ -16,6 +17,7 @@ from tests.helpers.playground_page import (
     QUICK_PARAMETERS,
     address_of,
     driven,
+    look_at,
     panel,
     play_to_the_end,
     status_of,
@@ -96,11 +98,39 @@ def test_charts_show_the_run_so_far(visit):
     assert square.locator(".winner").count() == len(set(now.winners.tolist()))
 
 
+def short(value):
+    """A number to three digits, and halves upwards, as in JavaScript."""
+    return f"{float(Context(prec=3, rounding=ROUND_HALF_UP).create_decimal_from_float(float(value))):g}"
+
+
+def standings_of(generation, robot):
+    """The rows of the table in which the page compares a robot with the others of its generation."""
+    (closeness, novelty), scaled = generation.components, generation.scaled
+    measures = {"closeness (1 / distance)": closeness}
+    if scaled is not None and scaled[0].any():  # else no objective function can weigh it
+        measures["closeness as weighed"] = scaled[0]
+    if generation.novelty is not None:
+        measures["novelty"] = novelty
+        if scaled is not None:
+            measures["novelty as weighed"] = scaled[1]
+    if generation.fitness is not None:
+        measures["fitness"] = generation.fitness
+    return [
+        [measure, short(values[robot]), short(values.max()), str(1 + (values > values[robot]).sum())]
+        for measure, values in measures.items()
+    ]
+
+
 @pytest.mark.parametrize(
     ("algorithm", "admission"),
     [
-        *((name, "lowest replaced") for name in ("safe", "novelty", "standard", "random")),
+        *((name, "lowest replaced") for name in ("safe", "novelty", "standard", "fixed", "random")),
         ("safe:genotypic:drawn:rank:drawn", "random"),
+        ("safe:pearson:drawn:maximum:drawn", "rescored"),
+        ("standard:none:1,0:rank:best", "lowest replaced"),
+        ("novelty:none:0,1:maximum:best", "distinct"),
+        ("fixed:none:0.5,0.5:maximum:drawn", "after scoring"),
+        ("mine:none:-1,-0.5,-0.5,-1", "lowest replaced"),
     ],
 )
 def test_one_robot_is_explained(visit, algorithm, admission):
@@ -109,11 +139,19 @@ def test_one_robot_is_explained(visit, algorithm, admission):
     page = visit(f"algorithm={algorithm}&seed=4&{QUICK}&generation=9&admission={admission}")
     page.locator(".panel .status").get_by_text("Generation 9").wait_for()
     for individual in (0, 13):
-        page.get_by_label("Robot", exact=True).fill(str(individual))
-        page.keyboard.press("Enter")
+        look_at(page, individual)
         row, column = generation.endpoints[individual]
-        page.get_by_text(f"Robot {individual} ended at row {row}, column {column}").wait_for()
         text = page.locator(".inspector").inner_text()
+        assert f"Robot {individual} ended at row {row}, column {column}," in text
+        standings = standings_of(generation, individual)
+        table = page.get_by_role("table", name="Among the 20 robots")
+        rows = table.locator("tbody tr").all()
+        assert [row.locator("th, td").all_inner_texts() for row in rows] == standings
+        bars = table.locator(".bar").evaluate_all(
+            "bars => bars.map((bar) => parseFloat(getComputedStyle(bar).backgroundSize))"
+        )
+        shares = [max(0, float(value) / abs(float(largest))) for _, value, largest, _ in standings]
+        assert bars == pytest.approx([100 * share for share in shares], abs=1)
         if generation.novelty is not None:
             total = int(re.search(r"add up to (\d+)", text)[1])
             assert total / 15 == generation.novelty[individual]
@@ -125,7 +163,13 @@ def test_one_robot_is_explained(visit, algorithm, admission):
             continue
         winner = generation.winners[individual]
         a, b = generation.objectives[winner]
-        assert f"by objective function {winner} with a = {float(f'{a:.3g}'):g} and b = {float(f'{b:.3g}'):g}" in text
+        assert f"by objective function {winner} with a = {short(a)} and b = {short(b)}" in text
+        wins = (generation.winners == winner).sum()
+        given = f"Objective function {winner} gives {'all' if wins == 20 else f'{wins} of the'} 20 fitnesses"
+        if algorithm.endswith("drawn") and len(generation.objectives) > 1:
+            assert f"{given}. But parents are not chosen by fitness: each tournament has another judge" in text
+        else:
+            assert f"{given}, by which tournaments choose parents." in text
         fitness = generation.fitness[individual]
         if fitness > 0:
             weighed = generation.components if generation.scaled is None else generation.scaled

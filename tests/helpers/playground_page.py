@@ -34,6 +34,13 @@ def status_of(run):
     return f"{outcome}: best {cells} from the goal, after {run.evaluations} robots.{fitness}"
 
 
+def look_at(page, robot):
+    """Select a robot of the generation by its number."""
+    page.get_by_label("Robot", exact=True).fill(str(robot))
+    page.keyboard.press("Enter")
+    page.get_by_text(f"Robot {robot} ended at").wait_for()
+
+
 def address_of(page):
     """The keys and values of the address, once the page has written its state there."""
     page.evaluate("new Promise((done) => setTimeout(done, 250))")  # started after the page's own timer

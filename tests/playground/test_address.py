@@ -16,6 +16,7 @@ from tests.helpers.twin import NODE, needs_node
 
 FEW = safe.Parameters(population=20, objectives=10, generations=3, elites=0, mutation=0.25)
 MORE = safe.Parameters(20, 10, 3, elites=0, admission="threshold", admitted=7, threshold=0.00001)
+LATER = safe.Parameters(20, 10, 3, elites=0, archive=30, admission="after scoring")
 
 ALGORITHMS = [
     *safe.ALGORITHMS.values(),
@@ -30,7 +31,7 @@ ALGORITHMS = [
 ]
 
 
-@pytest.mark.parametrize("parameters", [FEW, MORE], ids=["few", "more"])
+@pytest.mark.parametrize("parameters", [FEW, MORE, LATER], ids=["few", "more", "later"])
 @pytest.mark.parametrize("algorithm", ALGORITHMS, ids=lambda algorithm: algorithm.name)
 def test_the_run_that_an_address_says_is_that_of_the_experiment(algorithm, parameters):
     experiment = safe.Experiment(algorithm, "maze1", runs=3, seed=5, parameters=parameters)
@@ -64,7 +65,7 @@ def test_an_address_is_readable():
 @needs_node
 def test_the_page_reads_and_writes_the_same_addresses():
     experiments = [
-        safe.Experiment(a, "maze1", parameters=p) for a in ALGORITHMS for p in (safe.Parameters(), FEW, MORE)
+        safe.Experiment(a, "maze1", parameters=p) for a in ALGORITHMS for p in (safe.Parameters(), FEW, MORE, LATER)
     ]
     addresses = [run_address(experiment, 1) for experiment in experiments]
     known = "view=watch&maze=maze1&seed=1&algorithm="

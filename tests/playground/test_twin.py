@@ -12,7 +12,7 @@ import safe
 from safe import Algorithm, Maze, NoveltyArchive, Parameters, checks, load_maze
 from safe.maze import ways_to_goal
 from safe.maze_files import MAZE_FOLDER, parse_maze, text_of
-from safe.novelty import METRICS
+from safe.novelty import ADMISSIONS, METRICS
 from tests.helpers import fuzz, golden, maze_texts, oracle, record
 from tests.helpers.reference import reference_endpoints
 from tests.helpers.runs import runs_of_every_kind, runs_with_choices
@@ -218,8 +218,7 @@ CHOICES = [
     {"judging": "drawn judge"},
     {"rating": "pearson", "judging": "drawn judge"},
     {"rating": "spearman", "judging": "drawn judge"},
-    {"admission": "random"},
-    {"admission": "threshold"},
+    *({"admission": admission} for admission in ADMISSIONS[1:]),
 ]
 
 
@@ -258,6 +257,7 @@ def test_the_threshold_of_admission_rises_and_falls(twin, first, generations):
         (1000, "lowest replaced"),
         (1000, "random"),
         (1000, "threshold"),
+        *((50, admission) for admission in ADMISSIONS[3:]),
     ],
 )
 def test_neighbours_are_those_that_make_the_novelty(twin, archive, admission):
@@ -275,6 +275,7 @@ def test_neighbours_are_those_that_make_the_novelty(twin, archive, admission):
             assert np.abs(point - neighbour["point"]).sum() == neighbour["distance"]
             assert neighbour["point"] in (last.endpoints.tolist() if neighbour["from"] == "population" else archived)
     assert any(neighbour["from"] == "archive" for found in neighbours for neighbour in found) == (archive > 0)
+    assert archive == 1000 or len(before.archive[0]) == archive  # so that points have left it
 
 
 BAD_ARGUMENTS = [

@@ -3,7 +3,16 @@
 import { checkedAlgorithm, checkedParameters, COMPONENTS, GOAL, NOVELTY } from "./algorithms.js";
 import { InputError } from "./checks.js";
 import { bestScores, correlations, scale } from "./judges.js";
-import { admitAbove, admitDrawn, Archive, neighboursOf, Occupancy, scoreCells, scorePoints } from "./novelty.js";
+import {
+  admitAbove,
+  admitAfterScoring,
+  admitDrawn,
+  Archive,
+  neighboursOf,
+  Occupancy,
+  scoreCells,
+  scorePoints,
+} from "./novelty.js";
 import { breed, drawGenomes } from "./operators.js";
 import { Sfc64 } from "./random.js";
 import { Walker, WEIGHTS } from "./robot.js";
@@ -163,9 +172,10 @@ export class Evolution {
     const { endpoints, archive, occupancy, parameters: { k, admission, admitted } } = this;
     const novelty = this.components[NOVELTY];
     this.archiveBefore.copyFrom(archive);
-    scoreCells(endpoints, archive, occupancy, k, this.#isOffering, novelty);
+    scoreCells(endpoints, archive, occupancy, k, admission, novelty);
     if (admission === "random") admitDrawn(endpoints, archive, occupancy, admitted, this.rng, novelty);
     else if (admission === "threshold") admitAbove(endpoints, archive, occupancy, this.threshold, novelty);
+    else if (!this.#isOffering) admitAfterScoring(endpoints, archive, occupancy, admission === "distinct", novelty);
   }
 
   /** Keep the first solution that is nearer to the goal than all before it. */

@@ -1,10 +1,11 @@
 // The inspector: one robot of the generation, and how it came by its novelty and fitness.
 
-import { labelled, make, makeButton, makeControls, makeSelect } from "./dom.js";
+import { labelled, make, makeButton, makeControls, makeSelect, makeTableHead } from "./dom.js";
 import { titleOf } from "./labels.js";
 import { cellsText, percentage, shortNumber } from "./text.js";
 
 const MOST_SUMMANDS = 30; // of a novelty that are written out
+const STANDING_HEAD = ["Measure", "This robot", "Largest", "Rank"];
 
 export class Inspector {
   /** onselect: called with the index of a panel and the number of a robot. ondrive: with a controller. */
@@ -42,7 +43,8 @@ export class Inspector {
     return makeControls(labelled("Robot", number), ...(panels.length > 1 ? [labelled("of", run)] : []));
   }
 
-  #describe({ individual, inspection }) {
+  #describe({ panel, individual, inspection }) {
+    const { ends, objectives } = panel.latest;
     const { endpoint: [row, column], distance, novelty, fitness, controller } = inspection;
     const lines = [`Robot ${individual} ended at row ${row}, column ${column}, ${cellsText(distance)} from the goal.`];
     if (novelty !== null) lines.push(noveltyText(inspection));
@@ -52,6 +54,8 @@ export class Inspector {
     return [
       ...lines.map((line) => make("p", { class: "explanation" }, line)),
       ...(share === null ? [] : [makeSharesBar(share)]),
+      ...(fitness === null ? [] : [make("p", {}, judgeText(inspection, ends.length, objectives.length))]),
+      makeStandings(inspection.standings, ends.length),
       makeButton("Drive this robot", () => this.ondrive(controller)),
     ];
   }
@@ -80,6 +84,15 @@ function fitnessText(inspection) {
   );
 }
 
+/** Who decides: how much hangs on the objective function behind the fitness, and who selects parents. */
+function judgeText({ winner, wins, areJudgesDrawn }, robots, judges) {
+  const given = `Objective function ${winner} gives ${wins === robots ? "all" : `${wins} of the`} ${robots} fitnesses`;
+  return areJudgesDrawn && judges > 1
+    ? `${given}. But parents are not chosen by fitness: each tournament has another judge, drawn from all ${judges} ` +
+      "objective functions."
+    : `${given}, by which tournaments choose parents.`;
+}
+
 /** Which share of a fitness is for being near the goal, the rest being for novelty.
  *
  * null if there are no shares: without a fitness, or with negative coefficients. */
@@ -95,5 +108,26 @@ function makeSharesBar(share) {
     { class: "shares", role: "img", "aria-label": text },
     make("span", { class: "goal", style: `flex-grow: ${share}` }, share > 0.1 ? "goal" : ""),
     make("span", { class: "novelty", style: `flex-grow: ${rest}` }, share < 0.9 ? "novelty" : ""),
+  );
+}
+
+/** A robot beside the others of its generation, measure by measure; see worker.js. */
+function makeStandings(standings, robots) {
+  const rows = standings.map(({ measure, value, largest, rank }) => {
+    const share = largest > 0 ? Math.max(0, value) / largest : 0;
+    return make(
+      "tr",
+      {},
+      make("th", { scope: "row" }, measure),
+      make("td", { class: "number bar", style: `--share: ${share}` }, shortNumber(value)),
+      ...[shortNumber(largest), rank].map((number) => make("td", { class: "number" }, number)),
+    );
+  });
+  return make(
+    "table",
+    { class: "standings" },
+    make("caption", {}, `Among the ${robots} robots of the generation (rank 1 is the best, and equals share a rank)`),
+    makeTableHead(STANDING_HEAD, (i) => i > 0),
+    make("tbody", {}, ...rows),
   );
 }

@@ -3,7 +3,7 @@
 // The novelty of a point is the sum of its distances to its k nearest neighbours, divided by k. The neighbours are all
 // other points of the population, and all points of an archive. The points of a generation are scored in order, and
 // each is offered to the archive right after its score is known. By the other rules of admission, to the archive of end
-// points, points enter only after all are scored, where the oldest leave.
+// points, points enter only after all are scored: "random" and "threshold" replace the oldest, the others the lowest.
 
 import { checkedChoice, checkedInteger, checkedRows, MOST } from "./checks.js";
 import { nearestDistances } from "./neighbours.js";
@@ -11,7 +11,7 @@ import { rowOf } from "./rows.js";
 
 export const K = 15;
 export const ARCHIVE_CAPACITY = 1000;
-export const ADMISSIONS = ["lowest replaced", "random", "threshold"];
+export const ADMISSIONS = ["lowest replaced", "random", "threshold", "after scoring", "distinct", "rescored"];
 const MOST_ENTRIES = 4; // in a generation: if more enter, the threshold rises
 const RISE = 1.2;
 const MOST_IDLE = 2500; // evaluations without an entry: after them, the threshold falls
@@ -58,7 +58,7 @@ export class Archive {
     this.dimensions = dimensions;
     this.capacity = capacity;
     this.points = new Float64Array(capacity * dimensions); // one point after the other
-    this.scores = new Float64Array(capacity); // as they were on entry
+    this.scores = new Float64Array(capacity); // as they were on entry, unless they are computed anew
     this.entry = new Float64Array(capacity); // 0 for the first point that ever entered
     this.size = 0;
     this.entered = 0; // points that ever entered
@@ -94,8 +94,18 @@ export class Archive {
 
   /** Let the i-th of some points in, at the next place. */
   enter(points, i, score) {
-    const { scores, entry } = this;
     this.put(this.nextPlace, points, i, score);
+    this.#findLowest();
+  }
+
+  /** Compute all scores anew, from places. */
+  rescore(scoreAt) {
+    for (let place = 0; place < this.size; place++) this.scores[place] = scoreAt(place);
+    this.#findLowest();
+  }
+
+  #findLowest() {
+    const { scores, entry } = this;
     if (this.size < this.capacity) return;
     let lowest = 0;
     for (let j = 1; j < this.size; j++) {
@@ -147,11 +157,20 @@ export class Occupancy {
   }
 
   /** Let the i-th of some cells into an archive, if it is full in place of the oldest. */
-  admit(archive, cells, i, score) {
-    const place = archive.oldestPlace;
+  replaceOldest(archive, cells, i, score) {
+    this.#exchange(archive, archive.oldestPlace, cells, i);
+    archive.put(archive.oldestPlace, cells, i, score);
+  }
+
+  /** The same in place of the lowest score. */
+  replaceLowest(archive, cells, i, score) {
+    this.#exchange(archive, archive.nextPlace, cells, i);
+    archive.enter(cells, i, score);
+  }
+
+  #exchange(archive, place, cells, i) {
     if (place < archive.size) this.counts[this.place(archive.points, place)]--;
     this.counts[this.place(cells, i)]++;
-    archive.put(place, cells, i, score);
   }
 
   /** The summed distances from a place to the `wanted` nearest other points; -1 if not all are within the rings. */
@@ -176,20 +195,24 @@ export class Occupancy {
   }
 }
 
-/** Score cells by taxicab distance, in order, offering each to the archive or none. `occupancy` counts its points. */
-export function scoreCells(cells, archive, occupancy, k, isOffering, scores) {
+/** Score cells by taxicab distance, in order. By the paper's rule each is offered to the archive, by others none is.
+ *
+ * `occupancy` counts the archive's points. */
+export function scoreCells(cells, archive, occupancy, k, admission, scores) {
   const n = scores.length, { counts } = occupancy;
+  const scoreOf = (points, i) => {
+    const wanted = Math.min(k, n - 1 + archive.size);
+    const total = occupancy.sumOverRings(occupancy.place(points, i), wanted);
+    return (total >= 0 ? total : sumOverAll(points, i, cells, n, archive, wanted)) / k;
+  };
   for (let i = 0; i < n; i++) counts[occupancy.place(cells, i)]++;
   for (let i = 0; i < n; i++) {
-    const place = occupancy.place(cells, i), wanted = Math.min(k, n - 1 + archive.size);
-    const total = occupancy.sumOverRings(place, wanted);
-    scores[i] = (total >= 0 ? total : sumOverAll(cells, n, i, archive, wanted)) / k;
-    if (isOffering && scores[i] > archive.threshold) {
-      if (archive.nextPlace < archive.size) counts[occupancy.place(archive.points, archive.nextPlace)]--;
-      counts[place]++;
-      archive.enter(cells, i, scores[i]);
+    scores[i] = scoreOf(cells, i);
+    if (admission === "lowest replaced" && scores[i] > archive.threshold) {
+      occupancy.replaceLowest(archive, cells, i, scores[i]);
     }
   }
+  if (admission === "rescored") archive.rescore((place) => scoreOf(archive.points, place));
   for (let i = 0; i < n; i++) counts[occupancy.place(cells, i)]--;
 }
 
@@ -198,7 +221,7 @@ export function admitDrawn(cells, archive, occupancy, admitted, rng, scores) {
   if (archive.capacity === 0) return;
   for (let draw = 0; draw < admitted; draw++) {
     const i = Math.floor(rng.random() * scores.length);
-    occupancy.admit(archive, cells, i, scores[i]);
+    occupancy.replaceOldest(archive, cells, i, scores[i]);
   }
 }
 
@@ -210,7 +233,7 @@ export function admitAbove(cells, archive, occupancy, threshold, scores) {
   let entered = 0;
   for (let i = 0; i < scores.length; i++) {
     if (scores[i] > threshold.value) {
-      occupancy.admit(archive, cells, i, scores[i]);
+      occupancy.replaceOldest(archive, cells, i, scores[i]);
       entered++;
     }
   }
@@ -222,12 +245,20 @@ export function admitAbove(cells, archive, occupancy, threshold, scores) {
   }
 }
 
-/** The same sum as of `sumOverRings`, by the distances of all cells and of the archive: how many are at each? */
-function sumOverAll(cells, n, i, archive, wanted) {
+/** Offer cells to the archive, after all are scored; with `areDistinct`, none that it holds already. */
+export function admitAfterScoring(cells, archive, occupancy, areDistinct, scores) {
+  for (let i = 0; i < scores.length; i++) {
+    const isHeld = areDistinct && occupancy.counts[occupancy.place(cells, i)] > 0;
+    if (scores[i] > archive.threshold && !isHeld) occupancy.replaceLowest(archive, cells, i, scores[i]);
+  }
+}
+
+/** The same sum as of `sumOverRings`, for the i-th of some points: how many others are at each distance? */
+function sumOverAll(points, i, cells, n, archive, wanted) {
   const atDistance = [-1]; // without the point itself
   const count = (others, size) => {
     for (let j = 0; j < size; j++) {
-      const distance = Math.abs(others[2 * j] - cells[2 * i]) + Math.abs(others[2 * j + 1] - cells[2 * i + 1]);
+      const distance = Math.abs(others[2 * j] - points[2 * i]) + Math.abs(others[2 * j + 1] - points[2 * i + 1]);
       atDistance[distance] = (atDistance[distance] ?? 0) + 1;
     }
   };
@@ -270,7 +301,8 @@ export function scorePoints(points, archive, k, taxicab, scores, count = scores.
 
 /** The k nearest neighbours that the i-th of n points had when it was scored, the nearest first.
  *
- * archive: as it was before the generation, to which so many points had been offered by then. Returns { point, distance, from }; `from` is "population" or "archive". */
+ * archive: as it was before the generation, to which so many points had been offered by then.
+ * Returns { point, distance, from }; `from` is "population" or "archive". */
 export function neighboursOf(points, n, i, archive, offered, k, taxicab) {
   const met = new Archive(archive.capacity, archive.dimensions);
   met.copyFrom(archive);

@@ -89,5 +89,26 @@ function inspect(evolution, i) {
     coefficients,
     fromGoal: isJudged ? parts[GOAL] : null,
     fromNovelty: isJudged ? parts[NOVELTY] : null,
+    wins: evolution.winners.filter((other) => other === winner).length,
+    areJudgesDrawn: evolution.breeding.judging === "drawn judge",
+    standings: standingsOf(evolution, i),
   };
+}
+
+/** The i-th solution beside the others of the generation, by each measure that it has; equal ones share a rank. */
+function standingsOf({ components, scaled, weighed, fitness, isRandomSearch }, i) {
+  const isScaled = scaled !== components;
+  const measures = [
+    ["closeness (1 / distance)", components[GOAL], true],
+    ["closeness as weighed", scaled[GOAL], isScaled && weighed[GOAL]],
+    ["novelty", components[NOVELTY], weighed[NOVELTY]],
+    ["novelty as weighed", scaled[NOVELTY], isScaled && weighed[NOVELTY]],
+    ["fitness", fitness, !isRandomSearch],
+  ];
+  return measures.filter(([, , isThere]) => isThere).map(([measure, values]) => ({
+    measure,
+    value: values[i],
+    largest: values.reduce((largest, value) => Math.max(largest, value)),
+    rank: 1 + values.filter((other) => other > values[i]).length,
+  }));
 }
