@@ -167,7 +167,7 @@ def test_one_robot_is_explained(visit, algorithm, admission):
         wins = (generation.winners == winner).sum()
         given = f"Objective function {winner} gives {'all' if wins == 20 else f'{wins} of the'} 20 fitnesses"
         if algorithm.endswith("drawn") and len(generation.objectives) > 1:
-            assert f"{given}. But parents are not chosen by fitness: each tournament has another judge" in text
+            assert f"{given}. But parents are not chosen by fitness: each tournament draws its judge from all" in text
         else:
             assert f"{given}, by which tournaments choose parents." in text
         fitness = generation.fitness[individual]

@@ -88,7 +88,7 @@ function fitnessText(inspection) {
 function judgeText({ winner, wins, areJudgesDrawn }, robots, judges) {
   const given = `Objective function ${winner} gives ${wins === robots ? "all" : `${wins} of the`} ${robots} fitnesses`;
   return areJudgesDrawn && judges > 1
-    ? `${given}. But parents are not chosen by fitness: each tournament has another judge, drawn from all ${judges} ` +
+    ? `${given}. But parents are not chosen by fitness: each tournament draws its judge from all ${judges} ` +
       "objective functions."
     : `${given}, by which tournaments choose parents.`;
 }
