@@ -152,7 +152,7 @@ class Maze:
         """The maze as `from_drawing` reads it; `symbols` are those for open, wall, start and goal."""
         cells = self.walls.astype(int)
         cells[self.start], cells[self.goal] = 2, 3  # their places in `symbols`
-        return "\n".join("".join(symbols[cell] for cell in row) for row in cells)
+        return "\n".join(map("".join, np.array(list(symbols))[cells]))
 
     @property
     def shape(self) -> tuple[int, int]:
