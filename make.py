@@ -92,6 +92,12 @@ def fuzz():
         _run(*ATHERIS, "damaged stores", "2000", **BOUNDS_CHECKED)
 
 
+def evidence():
+    """what is recorded beyond the paper, made anew"""
+    env()
+    _run("python", "-m", "safe.companion.evidence")
+
+
 def format():
     """format and lint the code"""
     develop()
@@ -126,7 +132,7 @@ def clean():
 
 STEPS = {
     step.__name__: step
-    for step in (env, execute, book, pdf, test, develop, bench, fuzz, format, picture, constraints, clean)
+    for step in (env, execute, book, pdf, test, develop, bench, fuzz, evidence, format, picture, constraints, clean)
 }
 
 

@@ -25,6 +25,7 @@ import safe
 from executed import EXECUTED, NOTEBOOKS, ROOT, STAMP, notebooks, requested_parameters, stamp, what_is_wrong
 from forked import fork_jupyters_kernels
 from isolated import isolated
+from safe.companion import evidence
 from safe.companion.project import STORE
 
 SAMPLE = 5  # runs in it that are repeated at the end
@@ -122,6 +123,13 @@ def main() -> None:
         others = sum(same.sources != "same")
         said = f", although {others} of them were made from other or unknown sources of the science" if others else ""
         print(f"{len(same)} stored runs, drawn at random, were repeated and gave the same results{said}", flush=True)
+    if not options.names:
+        try:
+            runs, traces = evidence.verify()
+        except ValueError as error:
+            sys.exit(f"the recorded evidence cannot be trusted: {error}")
+        said = f"{runs} recorded run{'s' * (runs != 1)} and {traces} recorded trace{'s' * (traces != 1)}"
+        print(f"{said}, drawn at random, were repeated and gave the same results", flush=True)
 
 
 def _execute_all(chosen: list[Path], parameters: dict[str, object], always: bool) -> None:

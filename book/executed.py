@@ -26,7 +26,8 @@ from safe.companion.project import MEASUREMENTS
 NOTEBOOKS = ROOT / "notebooks"
 EXECUTED = ROOT / "executed"
 DEPENDENCIES = ("numpy", "numba", "scipy", "statsmodels", "pandas", "matplotlib")
-SUFFIXES = (".py", ".csv", ".maze", ".mplstyle", ".html")  # of the package's files, unlike those of editors and systems
+# of the package's files, unlike those of editors and systems
+SUFFIXES = (".py", ".csv", ".xz", ".json", ".maze", ".mplstyle", ".html")
 STAMP = "executed_from"  # key in the metadata of an executed copy
 LEFT_OUT = (
     "text/csv",  # for book/tables.py alone

@@ -65,7 +65,7 @@ PLACES = {
     "random": (1000, 10_000),
     "threshold": (1000, 10_000),
 }
-K = (1, 5, 15, 50, 200)
+K = {"novelty search": (1, 5, 15, 50, 200), "SAFE": (1, 5, 15, 50)}  # with 200, a run of SAFE takes ten times as long
 TOURNAMENTS = (2, 5, 20)
 POPULATIONS = (50, 100, 200, 500, 1000)
 ELITES = (0, 2, 20)
@@ -172,9 +172,10 @@ def factorial(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
         for maze, size, (variation, rates) in product(mazes, TOURNAMENTS, VARIATION.items()):
             rules = {"tournament": size} | rates
             yield (maze, "standard EA", 15, size, variation, "none"), STANDARD, rules, "factorial"
-            for (search, fields), k, archive in product(SEARCHES.items(), K, ("the paper's", "none", "random")):
-                own = rules | {"k": k} | ARCHIVES[archive]
-                yield (maze, search, k, size, variation, archive), fields, own, "factorial"
+            for (search, fields), archive in product(SEARCHES.items(), ("the paper's", "none", "random")):
+                for k in K[search]:
+                    own = rules | {"k": k} | ARCHIVES[archive]
+                    yield (maze, search, k, size, variation, archive), fields, own, "factorial"
 
     return _design(("maze", "algorithm", "k", "tournament", "variation", "archive"), cells(), runs, seed)
 

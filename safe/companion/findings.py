@@ -11,6 +11,8 @@ by the rules of the ledger (`safe.companion.verdicts`):
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from itertools import product
@@ -70,8 +72,75 @@ def cells_at(design: Design, levels: Levels) -> list[Experiment]:
 
 def successes(design: Design, results: Results, levels: Levels) -> tuple[int, int]:
     """Successes and runs at these levels, cells taken together."""
-    runs = [results[experiment] for experiment in cells_at(design, levels)]
-    return sum(int(of_one.success.sum()) for of_one in runs), sum(map(len, runs))
+    counts = [_counted_successes(results, experiment) for experiment in cells_at(design, levels)]
+    return sum(count for count, _ in counts), sum(n for _, n in counts)
+
+
+def rates(design: Design, results: Results) -> pd.DataFrame:
+    """Rates of success of a design's cells.
+
+    Returns
+    -------
+    pandas.DataFrame, one row for each cell, with the columns of its factors
+        successes, runs; rate, low and high: the share of runs that succeed, and the ends of its 95 % interval (Wilson);
+        evaluations: how many all runs took; per_success: evaluations over successes, which is what a success costs on
+        average if one starts anew after every failure; infinite without a success.
+    """
+    rows = []
+    for key, experiment in design.cells.items():
+        runs = results[experiment]
+        count, n, evaluations = int(runs.success.sum()), len(runs), int(runs.evaluations.sum())
+        low, high = success_interval(count, n)
+        measured = {"successes": count, "runs": n, "rate": count / n, "low": low, "high": high}
+        measured |= {"evaluations": evaluations, "per_success": evaluations / count if count else math.inf}
+        rows.append(dict(zip(design.factors, key, strict=True)) | measured)
+    return pd.DataFrame(rows)
+
+
+def readable_rates(
+    confirmed: tuple[Design, Results], explored: tuple[Design, Results]
+) -> tuple[pd.DataFrame, list[list[Experiment]]]:
+    """Successes to read, mazes side by side, and for each row the experiments behind it.
+
+    In parentheses stands the 95 % interval of the rate, in percent; the runs by which the questions were found are
+    counted apart.
+    """
+    design, results = confirmed
+    seen = {key: formats.count(*_counted_successes(explored[1], e)) for key, e in explored[0].cells.items()}
+    rows: dict[tuple[Level, ...], dict[str, str]] = {}
+    behind: dict[tuple[Level, ...], list[Experiment]] = {}
+    for key, experiment in design.cells.items():
+        maze, *levels = key
+        count, n = _counted_successes(results, experiment)
+        low, high = success_interval(count, n)
+        row = rows.setdefault(tuple(levels), {})
+        row[f"{maze}"] = f"{formats.count(count, n)} ({100 * low:.0f} to {100 * high:.0f} %)"
+        row[f"{maze}, explored"] = seen.get(key, formats.DASH)
+        behind.setdefault(tuple(levels), []).append(experiment)
+    index = pd.MultiIndex.from_tuples(rows, names=design.factors[1:])
+    return pd.DataFrame(list(rows.values()), index), list(behind.values())
+
+
+def _counted_successes(results: Results, experiment: Experiment) -> tuple[int, int]:
+    runs = results[experiment]
+    return int(runs.success.sum()), len(runs)
+
+
+def exported(rates: pd.DataFrame, factors: Sequence[str]) -> pd.DataFrame:
+    """Successes and runs of a table of `rates`, indexed by levels as they stand in names: maze1_no_archive_raw_safe."""
+    names = [
+        "_".join(re.findall(r"[\w½]+", " ".join(map(str, row)).lower())) for row in rates[list(factors)].to_numpy()
+    ]
+    return rates[["successes", "runs"]].set_axis(names)
+
+
+def summary(table: pd.DataFrame) -> str:
+    """How many of the questions of a table of `answers` got which answer, as a sentence; which are not confirmed."""
+    counts = table.verdict.value_counts()
+    found = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+    others = table.index[table.verdict != CONFIRMED]
+    listed = "".join(f"\n- {table.verdict[statement]}: {statement}" for statement in others)
+    return f"Of {len(table)} questions: {found}." + (f" Not confirmed are:\n{listed}" if listed else "")
 
 
 def answers(
@@ -110,6 +179,22 @@ def answers(
     table["p_adjusted"] = holm(table.p_value)
     table["verdict"] = [_WORDS[verdict(row)] for _, row in table.iterrows()]
     return table
+
+
+def readable_answers(table: pd.DataFrame) -> pd.DataFrame:
+    """A table of `answers` to read; differences are in percentage points."""
+    differences = table[["difference", "low", "high"]].to_numpy()
+    return pd.DataFrame(
+        {
+            "answer": table.verdict,
+            "here": table.here,
+            "difference (95 % interval)": [formats.difference_of_rates(*row) for row in differences],
+            "p (Holm)": table.p_adjusted.map(formats.p_value),
+            "p (equivalence)": table.p_equivalence.map(formats.p_value),
+            "explored": table.explored,
+        },
+        index=table.index.rename("question"),
+    )
 
 
 def _compared(question: Question, explored: tuple[Design, Results], confirmed: tuple[Design, Results]) -> dict:

@@ -59,6 +59,11 @@ def show_table(table: pd.DataFrame, links: Sequence[Sequence[tuple[str, str]]], 
     )
 
 
+def say(text: str) -> None:
+    """Show sentences, in Markdown, that hold numbers from the results."""
+    display({"text/markdown": text, "text/plain": text}, raw=True)
+
+
 def export_numbers(table: pd.DataFrame) -> None:
     """Export the numbers of a table to the prose of the book, named `column_index`: successes_maze1_safe."""
     numbers = {

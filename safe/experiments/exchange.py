@@ -128,7 +128,7 @@ def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, 
         if kept != remade:
             raise StoreError(
                 f"store must hold what its experiments make; got {results}, where run {number} of {entry.label}, "
-                f"seed {experiment.seed}, has {_difference(kept, remade)}{_blame(origin, sources)}"
+                f"seed {experiment.seed}, has {_difference(kept, remade)}{blame(origin)}"
             )
         row = entry.algorithm, entry.maze, experiment.seed, number, remade.success, remade.generation, sources
         same.append(row)
@@ -142,8 +142,9 @@ def _sources(origin: Origin) -> str:
     return "same" if origin.sources == loaded_sources() else "other"
 
 
-def _blame(origin: Origin, sources: str) -> str:
+def blame(origin: Origin) -> str:
     """The end of an error message: what made a run, unless it was made from the same sources."""
+    sources = _sources(origin)
     if sources == "same":
         return ""
     made_by = f"version {str(origin.version)[:20]}, commit {str(origin.commit)[:8]}, sources {str(origin.sources)[:8]}"

@@ -9,6 +9,7 @@ import sys
 from html.parser import HTMLParser
 
 import nbformat
+import pandas as pd
 import pytest
 
 import safe
@@ -252,19 +253,21 @@ def book_of(monkeypatch):
 
 
 @pytest.mark.usefixtures("alone_in_checkout")
-@pytest.mark.parametrize("change", ["notebook", "package", "measurements", "parameters", "missing"])
+@pytest.mark.parametrize("change", ["notebook", "package", "record", "measurements", "parameters", "missing"])
 def test_stale_copies_are_recognised(checkout, book_of, change):
     what_is_wrong = book_of(checkout, "executed").what_is_wrong
     notebook = checkout / "notebooks" / "table2-success.ipynb"
     requested = {"runs": int(RUNS)}
     assert what_is_wrong(notebook, requested) is None
     copy, module = checkout / "executed" / notebook.name, checkout / "safe" / "robot.py"
-    measurements = checkout / "benchmarks" / "results.json"
-    before = {file: file.read_bytes() for file in (notebook, copy, module, measurements)}
+    measurements, record = checkout / "benchmarks" / "results.json", checkout / "safe/companion/record/runs.csv.xz"
+    before = {file: file.read_bytes() for file in (notebook, copy, module, measurements, record)}
     if change == "notebook":
         notebook.write_bytes(before[notebook].replace(b"Who finds the goal", b"Who ever finds the goal"))
     elif change == "package":
         module.write_bytes(before[module] + b"# changed\n")
+    elif change == "record":
+        record.write_bytes(b"changed")
     elif change == "measurements":
         measurements.write_bytes(before[measurements] + b"\n")
     elif change == "parameters":
@@ -276,7 +279,8 @@ def test_stale_copies_are_recognised(checkout, book_of, change):
     finally:
         for file, content in before.items():
             file.write_bytes(content)
-    expected = "was not executed" if change == "missing" else f"was executed before the {change} changed"
+    changed = "package" if change == "record" else change
+    expected = "was not executed" if change == "missing" else f"was executed before the {changed} changed"
     assert fault == expected
 
 
@@ -400,9 +404,24 @@ def test_runs_made_from_other_sources_are_counted(checkout, book_of, monkeypatch
     monkeypatch.setattr("sys.argv", ["book/execute.py", "-p", "store", str(tmp_path / "s.sqlite")])
     monkeypatch.setattr(execute, "_execute_all", lambda *_: None)
     monkeypatch.setattr(execute.safe, "verify", lambda *_: repeated)
+    monkeypatch.setattr(execute.evidence, "verify", lambda: (5, 1))
     execute.main()
-    line = f"3 stored runs, drawn at random, were repeated and gave the same results{said}\n"
-    assert capsys.readouterr().out == line
+    line, recorded = capsys.readouterr().out.splitlines()
+    assert line == f"3 stored runs, drawn at random, were repeated and gave the same results{said}"
+    assert recorded == "5 recorded runs and 1 recorded trace, drawn at random, were repeated and gave the same results"
+
+
+def test_evidence_that_is_not_reproduced_stops_the_build(checkout, book_of, monkeypatch):
+    def refuse():
+        raise ValueError("record must hold what its experiments make")
+
+    execute = book_of(checkout, "execute")
+    monkeypatch.setattr("sys.argv", ["book/execute.py"])
+    monkeypatch.setattr(execute, "_execute_all", lambda *_: None)
+    monkeypatch.setattr(execute.safe, "verify", lambda *_: pd.DataFrame({"sources": []}))
+    monkeypatch.setattr(execute.evidence, "verify", refuse)
+    with pytest.raises(SystemExit, match="the recorded evidence cannot be trusted: record must hold what its"):
+        execute.main()
 
 
 @pytest.mark.usefixtures("alone_in_checkout")

@@ -4,6 +4,7 @@ Functions named `plot_...` return the figure and its axes: a single one, or an a
 or, if there are several rows of them, row by row. `results` and `paper` are those of `safe.results.tables`.
 """
 
+from safe.results.figures.grids import plot_levels, plot_rates, plot_windows
 from safe.results.figures.mazes import (
     draw_maze,
     draw_path,
@@ -24,13 +25,16 @@ __all__ = [
     "plot_coefficients",
     "plot_generation",
     "plot_judging",
+    "plot_levels",
     "plot_mazes",
     "plot_neighbours",
     "plot_paths",
     "plot_progress",
+    "plot_rates",
     "plot_sensors",
     "plot_success",
     "plot_success_curves",
     "plot_weights",
+    "plot_windows",
     "use_style",
 ]

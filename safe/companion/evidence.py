@@ -1,0 +1,418 @@
+"""Evidence beyond the paper, recorded: runs for which a reader should not have to wait.
+
+    python -m safe.companion.evidence      makes everything in `safe.companion.designs`, and the record of it anew
+
+The record is a folder of three files:
+
+    runs.csv.xz     how each run ended, experiment by experiment, the runs of each in order
+    traces.csv.xz   what happened inside the traced runs: for each window of generations, the measures of their
+                    mechanism (see `safe.results.mechanism`)
+    record.json     the rules; the experiments, whose places in this list, from 0, are their numbers in the other files;
+                    what made their runs; and the SHA-256 of the other files
+
+Coefficients and measures have four significant digits, and everything else is exact. What follows from a column is left
+out: the evaluations from the generation, and a run's number from its place.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import io
+import json
+import lzma
+import os
+import sqlite3
+from collections.abc import Iterable, Iterator, Sequence
+from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
+from contextlib import closing, nullcontext
+from itertools import zip_longest
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from safe import checks
+from safe.algorithms import COEFFICIENTS
+from safe.companion import designs, notebook
+from safe.companion.designs import Recorded
+from safe.evolution import RULES, evolve
+from safe.experiments.cores import available_cores
+from safe.experiments.exchange import blame
+from safe.experiments.experiment import Experiment, row_of, run
+from safe.experiments.progress import bar
+from safe.experiments.provenance import Origin, origin
+from safe.experiments.store import Store, sha256
+from safe.results import mechanism
+
+RECORD = Path(__file__).with_name("record")
+RUNS, TRACES, SUMMARY = "runs.csv.xz", "traces.csv.xz", "record.json"
+COLUMNS = {
+    RUNS: ["experiment", "success", "generation", "distance", *COEFFICIENTS],
+    TRACES: ["experiment", "run", "window", *mechanism.MEASURES],
+}
+_DIGITS = "%.4g"  # of a fraction: any more, and the record would be several times as large
+_FILTERS = [{"id": lzma.FILTER_LZMA2, "preset": 9 | lzma.PRESET_EXTREME, "lc": 4, "pb": 0}]  # for text
+_ANEW = "make evidence makes it anew"
+
+
+class Entry(NamedTuple):
+    """What the record says of an experiment."""
+
+    digest: str
+    algorithm: str  # a name, like the next
+    maze: str
+    content: dict  # without the rules, which all share, and without the maze's cells, which the digest covers
+    runs: int
+    traced: int
+    core_seconds: float  # that its runs took
+    origins: list[int]  # of its runs and traces, by their places in the record's list
+
+
+class Record(NamedTuple):
+    """The contents of record.json."""
+
+    rules: int
+    experiments: list[Entry]
+    origins: list[Origin]
+    files: dict[str, str]  # SHA-256 by name
+
+
+# What notebooks read
+
+
+def is_recorded(experiment: Experiment) -> bool:
+    """Does the record hold as many runs of this experiment as it asks for?"""
+    return _number(experiment, _record()) is not None
+
+
+def runs(experiments: Iterable[Experiment], resources: dict[str, object]) -> dict[Experiment, pd.DataFrame]:
+    """The runs of experiments: the recorded ones, or the results of `safe.run` if fewer are recorded than asked for.
+
+    Parameters
+    ----------
+    experiments : iterable of Experiment
+    resources : dict
+        The keyword arguments of `safe.run` for what is not recorded (see `safe.companion.notebook.resources`).
+
+    Returns
+    -------
+    dict of Experiment to DataFrame
+        The columns of `safe.run`; of recorded runs without p1..p16 and seconds, and with a and b to four digits.
+
+    Raises
+    ------
+    ValueError
+        If the record is damaged, or for the reasons that `safe.run` has.
+    """
+    record = _record()
+    table = _table(RUNS, record)
+    results = {}
+    for experiment in experiments:
+        number = _number(experiment, record)
+        if number is None:
+            results[experiment] = run(experiment, **resources)
+        else:
+            recorded = table[table.experiment == number].head(experiment.runs).reset_index(drop=True)
+            recorded = recorded.rename_axis("run").reset_index().drop(columns="experiment")
+            recorded["evaluations"] = (recorded.generation + 1) * experiment.parameters.population
+            results[experiment] = recorded.dropna(axis="columns", how="all")  # random search has no coefficients
+    return results
+
+
+def traces(experiments: Iterable[Experiment]) -> dict[Experiment, pd.DataFrame]:
+    """What is recorded of the mechanism of these experiments, for those of which something is.
+
+    Returns
+    -------
+    dict of Experiment to DataFrame
+        One row for each window of each traced run: run, window (its first generation), and the measures.
+
+    Raises
+    ------
+    ValueError
+        If the record is damaged.
+    """
+    record = _record()
+    table = _table(TRACES, record)
+    results = {}
+    for experiment in experiments:
+        number = _number(experiment, record)
+        recorded = table[(table.experiment == number) & (table.run < experiment.runs)]
+        if len(recorded):
+            results[experiment] = recorded.drop(columns="experiment").reset_index(drop=True)
+    return results
+
+
+def _record() -> Record:
+    try:
+        rules, experiments, origins, files = Record(**json.loads((RECORD / SUMMARY).read_bytes()))
+        return Record(rules, [Entry(**e) for e in experiments], [Origin(**o) for o in origins], dict(files))
+    except (OSError, TypeError, ValueError) as error:
+        raise _damaged(SUMMARY, checks.reason(error)) from None
+
+
+def _text(name: str, record: Record) -> str:
+    """The text of a file of the record, which must be the one that was written."""
+    try:
+        content = (RECORD / name).read_bytes()
+    except OSError as error:
+        raise _damaged(name, checks.reason(error)) from None
+    if hashlib.sha256(content).hexdigest() != record.files.get(name):
+        raise _damaged(name, f"its SHA-256 is not the one in {SUMMARY}")
+    return lzma.decompress(content).decode()
+
+
+def _table(name: str, record: Record) -> pd.DataFrame:
+    fractions = dict.fromkeys([*COEFFICIENTS, *mechanism.MEASURES], float)
+    return pd.read_csv(io.StringIO(_text(name, record)), dtype=fractions)
+
+
+def _number(experiment: Experiment, record: Record) -> int | None:
+    """The number of an experiment in the record; None if fewer runs are recorded than it asks for."""
+    found = [n for n, e in enumerate(record.experiments) if e.digest == experiment.digest and e.runs >= experiment.runs]
+    return found[0] if found else None
+
+
+def _damaged(name: str, reason: str) -> ValueError:
+    return ValueError(f"record must hold what was written to it; got {str(RECORD / name)!r} ({reason}): {_ANEW}")
+
+
+# Making it
+
+
+def make(
+    store: str | os.PathLike, executor: Executor | None = None, cores: int | None = None, progress: bool = True
+) -> None:
+    """Make all runs and traces of `designs.everything()`, and the record of them.
+
+    Runs are kept in the store, and traces in a file beside it, as soon as they come back. So an interrupted making
+    continues where it stopped. Arguments and errors are those of `safe.run`.
+    """
+    designed = designs.everything()
+    tables = [run(recorded.experiment, store, executor, progress, cores) for recorded in designed]
+    kept = _made_traces(designed, Path(store), executor, cores, progress)
+    origins: dict[Origin, int] = {}
+    entries, lines = [], []
+    with Store.for_reading(store) as results:
+        for number, (recorded, table) in enumerate(zip(designed, tables, strict=True)):
+            experiment = recorded.experiment
+            (stored,) = results.experiments(experiment.digest)
+            batches = {kept_run.batch for kept_run in results.runs(stored, experiment.runs)}
+            mine = [kept[experiment.digest, run_number] for run_number in range(recorded.traced)]
+            made_by = [results.origin_of(batch) for batch in sorted(batches)] + [trace.origin for trace in mine]
+            content = {key: value for key, value in experiment.content.items() if key not in ("rules", "maze")}
+            entries.append(
+                Entry(
+                    experiment.digest,
+                    experiment.algorithm.name,
+                    experiment.maze.name,
+                    content,
+                    experiment.runs,
+                    recorded.traced,
+                    round(float(table.seconds.sum()), 1),
+                    sorted({origins.setdefault(o._replace(time=None), len(origins)) for o in made_by}),
+                )
+            )
+            for run_number, trace in enumerate(mine):
+                lines += _trace_lines(number, run_number, trace)
+    ended = [line for number, table in enumerate(tables) for line in _run_lines(number, table)]
+    _write(entries, list(origins), {RUNS: ended, TRACES: lines})
+
+
+def _run_lines(number: int, table: pd.DataFrame) -> list[str]:
+    """How these runs of an experiment ended, as lines of the record."""
+    return _csv(table.assign(experiment=number).reindex(columns=COLUMNS[RUNS]).set_index("experiment"))
+
+
+def _trace_lines(number: int, run_number: int, trace: Trace) -> list[str]:
+    """A trace as lines of the record."""
+    return [f"{number},{run_number},{line}" for line in trace.lines]
+
+
+def _csv(table: pd.DataFrame) -> list[str]:
+    return table.to_csv(header=False, float_format=_DIGITS, lineterminator="\n").splitlines()
+
+
+def _write(entries: Sequence[Entry], origins: Sequence[Origin], lines: dict[str, Sequence[str]]) -> None:
+    """Write the record; the same content always gives the same bytes."""
+    RECORD.mkdir(exist_ok=True)
+    files = {}
+    for name, rows in lines.items():
+        text = "\n".join([",".join(COLUMNS[name]), *rows, ""])
+        content = lzma.compress(text.encode(), filters=_FILTERS)
+        (RECORD / name).write_bytes(content)
+        files[name] = hashlib.sha256(content).hexdigest()
+    record = Record(RULES, [entry._asdict() for entry in entries], [o._asdict() for o in origins], files)
+    (RECORD / SUMMARY).write_text(json.dumps(record._asdict(), indent=1) + "\n", encoding="utf-8", newline="\n")
+
+
+TraceKey = tuple[str, int]  # the digest of an experiment, and the number of its run
+
+
+class Trace(NamedTuple):
+    """What happened inside a run, and what found it out."""
+
+    rules: int
+    origin: Origin
+    lines: list[str]  # one for each window: its first generation, then the measures
+
+
+def make_trace(experiment: Experiment, run_number: int) -> Trace:
+    """Make a run again and observe it, wherever the executor does so."""
+    observed = mechanism.observe(experiment, experiment.replay(run_number))
+    return Trace(RULES, origin(), _csv(mechanism.by_window(observed)[[*mechanism.MEASURES]]))
+
+
+def _made_traces(
+    designed: Sequence[Recorded], store: Path, executor: Executor | None, cores: int | None, progress: bool
+) -> dict[TraceKey, Trace]:
+    """All traces: those in the file beside the store, and the missing ones, which are computed now and kept there."""
+    wanted = {(r.experiment.digest, number): r.experiment for r in designed for number in range(r.traced)}
+    measured_by = sha256(Path(mechanism.__file__).read_text(encoding="utf-8"))  # other measures are never mixed in
+    file = store.with_name(f"{store.stem}-traces.sqlite")
+    with closing(sqlite3.connect(file, timeout=60, isolation_level=None)) as kept:
+        kept.execute(
+            "CREATE TABLE IF NOT EXISTS traces (measured_by TEXT, digest TEXT, run INTEGER, trace TEXT NOT NULL,"
+            " PRIMARY KEY (measured_by, digest, run))"
+        )
+        rows = kept.execute("SELECT digest, run, trace FROM traces WHERE measured_by = ?", (measured_by,))
+        traces = {(digest, number): _read_trace(text) for digest, number, text in rows}
+        missing = {key: experiment for key, experiment in wanted.items() if key not in traces}
+        with (
+            bar("traces", progress, total=len(wanted), initial=len(wanted) - len(missing), unit="trace") as shown,
+            closing(_computed_traces(missing, executor, cores)) as computed,
+        ):
+            for key, trace in computed:
+                kept.execute("INSERT OR IGNORE INTO traces VALUES (?, ?, ?, ?)", (measured_by, *key, json.dumps(trace)))
+                traces[key] = trace
+                shown.update()
+    return traces
+
+
+def _computed_traces(
+    wanted: dict[TraceKey, Experiment], executor: Executor | None, cores: int | None
+) -> Iterator[tuple[TraceKey, Trace]]:
+    """Traces as they come back. If this is closed earlier, those that have not begun are cancelled."""
+    with nullcontext(executor) if executor is not None else ThreadPoolExecutor(cores or available_cores()) as pool:
+        futures = {pool.submit(make_trace, experiment, key[1]): key for key, experiment in wanted.items()}
+        try:
+            for future in as_completed(futures):
+                trace = future.result()
+                if trace.rules != RULES:
+                    raise ValueError(f"executor must compute by the rules {RULES} of this version; got {trace.rules}")
+                yield futures[future], trace
+        finally:
+            for future in futures:
+                future.cancel()
+
+
+def _read_trace(text: str) -> Trace:
+    rules, made_by, lines = json.loads(text)
+    return Trace(rules, Origin(*made_by), lines)
+
+
+# Verifying it
+
+
+def verify(sample: int = 5, traces: int = 1, seed: int | None = None) -> tuple[int, int]:
+    """Make some of the recorded runs and traces again, and compare all that is recorded of them.
+
+    Parameters
+    ----------
+    sample, traces : int
+        How many runs and how many traces, drawn at random; all if there are no more.
+    seed : int, optional
+        The seed of the draw; by default every draw differs.
+
+    Returns
+    -------
+    tuple of int
+        How many runs and how many traces were made again.
+
+    Raises
+    ------
+    ValueError
+        If the record is damaged, follows other rules, holds other experiments than those of `designs.everything()`, or
+        differs from what they make; if an argument is no integer in range.
+    """
+    sample, traces = checks.integer("sample", sample, 0), checks.integer("traces", traces, 0)
+    draw = np.random.default_rng(None if seed is None else checks.integer("seed", seed, 0))
+    record, designed = _record(), designs.everything()
+    _check_design(record, designed)
+    (_, *ended), (header, *traced) = (_text(name, record).splitlines() for name in (RUNS, TRACES))
+    if header != ",".join(COLUMNS[TRACES]):
+        raise ValueError(f"record must hold the measures of this version; got {checks.shown(header)}: {_ANEW}")
+
+    drawn_runs = _drawn(draw, sample, [entry.runs for entry in record.experiments])
+    for number, i in drawn_runs:
+        e, place = designed[number].experiment, sum(entry.runs for entry in record.experiments[:number]) + i
+        remade = evolve(e.maze, e.algorithm, e.seed_sequence(i), e.parameters)
+        lines = _run_lines(number, pd.DataFrame([row_of(remade)]))
+        _compare(RUNS, [ended[place]], lines, record, number, i)
+    drawn_traces = _drawn(draw, traces, [entry.traced for entry in record.experiments])
+    for number, i in drawn_traces:
+        recorded = [line for line in traced if line.startswith(f"{number},{i},")]
+        lines = _trace_lines(number, i, make_trace(designed[number].experiment, i))
+        _compare(TRACES, recorded, lines, record, number, i)
+    return len(drawn_runs), len(drawn_traces)
+
+
+def _drawn(draw: np.random.Generator, sample: int, sizes: Sequence[int]) -> list[tuple[int, int]]:
+    """So many runs, drawn from experiments with these numbers of runs: the experiment's number and the run's."""
+    places = [(number, i) for number, size in enumerate(sizes) for i in range(size)]
+    return [places[place] for place in draw.permutation(len(places))[:sample]]
+
+
+def _check_design(record: Record, designed: Sequence[Recorded]) -> None:
+    """Raise a ValueError unless this is the record of these experiments, by the rules of this version."""
+    if record.rules != RULES:
+        raise ValueError(f"record must follow the rules {RULES} of this version; got {record.rules}: {_ANEW}")
+    recorded = [(entry.digest, entry.runs, entry.traced) for entry in record.experiments]
+    wanted = [(design.experiment.digest, design.experiment.runs, design.traced) for design in designed]
+    if recorded != wanted:
+        first = next(n for n, (one, other) in enumerate(zip_longest(recorded, wanted)) if one != other)
+        label = _label(record.experiments[first]) if first < len(recorded) else "none"
+        raise ValueError(
+            "record must hold the experiments of safe.companion.designs, with as many runs and traces; "
+            f"got another as number {first} ({label}): {_ANEW}"
+        )
+
+
+def _compare(
+    name: str, recorded: Sequence[str], made: Sequence[str], record: Record, number: int, run_number: int
+) -> None:
+    """Raise a ValueError, which names the first difference, unless these lines of a run are the same."""
+    for line, expected in zip_longest(recorded, made, fillvalue=""):
+        for column, found, wanted in zip_longest(COLUMNS[name], line.split(","), expected.split(","), fillvalue=""):
+            if found != wanted:
+                entry = record.experiments[number]
+                where = f", window {(line or expected).split(',')[2]}" if name == TRACES else ""
+                raise ValueError(
+                    f"record must hold what its experiments make; got {str(RECORD / name)!r}, where run {run_number} "
+                    f"of {_label(entry)}{where}, has {column} {found!r} instead of {wanted!r}"
+                    + "".join(blame(record.origins[place]) for place in entry.origins)
+                )
+
+
+def _label(entry: Entry) -> str:
+    return f"{entry.algorithm} on {entry.maze}, seed {entry.content['seed']}"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Make everything that is recorded beyond the paper, and the record.")
+    parser.add_argument("--store", default="evidence.sqlite", help="where finished runs are kept (evidence.sqlite)")
+    parser.add_argument("--cores", type=int, default=0, help="how many cores of this machine; by default all")
+    parser.add_argument("--scheduler", default="", help="the address of a Dask scheduler whose workers make the runs")
+    options = parser.parse_args()
+    try:
+        make(**notebook.resources(options.store, options.scheduler, options.cores))
+    except ValueError as error:
+        parser.error(str(error))
+
+
+if __name__ == "__main__":
+    from safe.companion import evidence  # other processes know what they are sent by this name, not as __main__
+
+    evidence.main()
