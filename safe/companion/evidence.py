@@ -60,10 +60,10 @@ _ANEW = "make evidence makes it anew"
 class Entry(NamedTuple):
     """What the record says of an experiment."""
 
-    digest: str
+    digest: str  # of its content, which `safe.companion.designs` states
     algorithm: str  # a name, like the next
     maze: str
-    content: dict  # without the rules, which all share, and without the maze's cells, which the digest covers
+    seed: int
     runs: int
     traced: int
     core_seconds: float  # that its runs took
@@ -82,19 +82,17 @@ class Record(NamedTuple):
 # What notebooks read
 
 
-def is_recorded(experiment: Experiment) -> bool:
-    """Does the record hold as many runs of this experiment as it asks for?"""
-    return _number(experiment, _record()) is not None
-
-
-def runs(experiments: Iterable[Experiment], resources: dict[str, object]) -> dict[Experiment, pd.DataFrame]:
+def runs(
+    experiments: Iterable[Experiment], resources: dict[str, object] | None = None
+) -> dict[Experiment, pd.DataFrame]:
     """The runs of experiments: the recorded ones, or the results of `safe.run` if fewer are recorded than asked for.
 
     Parameters
     ----------
     experiments : iterable of Experiment
-    resources : dict
-        The keyword arguments of `safe.run` for what is not recorded (see `safe.companion.notebook.resources`).
+    resources : dict, optional
+        The keyword arguments of `safe.run` for what is not recorded (see `safe.companion.notebook.resources`). Without
+        them such experiments are left out.
 
     Returns
     -------
@@ -107,22 +105,31 @@ def runs(experiments: Iterable[Experiment], resources: dict[str, object]) -> dic
         If the record is damaged, or for the reasons that `safe.run` has.
     """
     record = _record()
-    table = _table(RUNS, record)
+    numbers, tables = _numbers(record), dict(iter(_table(RUNS, record).groupby("experiment")))
     results = {}
     for experiment in experiments:
-        number = _number(experiment, record)
-        if number is None:
-            results[experiment] = run(experiment, **resources)
-        else:
-            recorded = table[table.experiment == number].head(experiment.runs).reset_index(drop=True)
-            recorded = recorded.rename_axis("run").reset_index().drop(columns="experiment")
+        number = numbers.get(experiment.digest)
+        if number is not None and record.experiments[number].runs >= experiment.runs:
+            recorded = tables[number].head(experiment.runs).reset_index(drop=True).rename_axis("run").reset_index()
             recorded["evaluations"] = (recorded.generation + 1) * experiment.parameters.population
-            results[experiment] = recorded.dropna(axis="columns", how="all")  # random search has no coefficients
+            # random search has no coefficients
+            results[experiment] = recorded.drop(columns="experiment").dropna(axis="columns", how="all")
+        elif resources is not None:
+            results[experiment] = run(experiment, **resources)
     return results
 
 
-def traces(experiments: Iterable[Experiment]) -> dict[Experiment, pd.DataFrame]:
-    """What is recorded of the mechanism of these experiments, for those of which something is.
+def traces(experiments: Iterable[Experiment], traced: int) -> dict[Experiment, pd.DataFrame]:
+    """What happened inside the first runs of experiments.
+
+    It is recorded of some experiments. In experiments of which not even runs are recorded, as on another maze or with
+    another seed, it is observed now, which takes a second or so for each run. Others are left out.
+
+    Parameters
+    ----------
+    experiments : iterable of Experiment
+    traced : int
+        Of how many runs at most.
 
     Returns
     -------
@@ -132,16 +139,23 @@ def traces(experiments: Iterable[Experiment]) -> dict[Experiment, pd.DataFrame]:
     Raises
     ------
     ValueError
-        If the record is damaged.
+        If the record is damaged, or `traced` is no integer of at least 0.
     """
+    traced = checks.integer("traced", traced, 0)
     record = _record()
-    table = _table(TRACES, record)
+    numbers, tables = _numbers(record), dict(iter(_table(TRACES, record).groupby("experiment")))
     results = {}
     for experiment in experiments:
-        number = _number(experiment, record)
-        recorded = table[(table.experiment == number) & (table.run < experiment.runs)]
-        if len(recorded):
-            results[experiment] = recorded.drop(columns="experiment").reset_index(drop=True)
+        number, wanted = numbers.get(experiment.digest), min(traced, experiment.runs)
+        if number is None and wanted:
+            lines = [line for i in range(wanted) for line in _trace_lines(0, i, make_trace(experiment, i))]
+            found = _parsed(TRACES, "\n".join([",".join(COLUMNS[TRACES]), *lines]))
+        elif number in tables:
+            found = tables[number][tables[number].run < wanted]
+        else:
+            continue
+        if len(found):
+            results[experiment] = found.drop(columns="experiment").reset_index(drop=True)
     return results
 
 
@@ -165,14 +179,17 @@ def _text(name: str, record: Record) -> str:
 
 
 def _table(name: str, record: Record) -> pd.DataFrame:
-    fractions = dict.fromkeys([*COEFFICIENTS, *mechanism.MEASURES], float)
-    return pd.read_csv(io.StringIO(_text(name, record)), dtype=fractions)
+    return _parsed(name, _text(name, record))
 
 
-def _number(experiment: Experiment, record: Record) -> int | None:
-    """The number of an experiment in the record; None if fewer runs are recorded than it asks for."""
-    found = [n for n, e in enumerate(record.experiments) if e.digest == experiment.digest and e.runs >= experiment.runs]
-    return found[0] if found else None
+def _parsed(name: str, text: str) -> pd.DataFrame:
+    fractions = dict.fromkeys({*COLUMNS[name]} & {*COEFFICIENTS, *mechanism.MEASURES}, float)
+    return pd.read_csv(io.StringIO(text), dtype=fractions)
+
+
+def _numbers(record: Record) -> dict[str, int]:
+    """The numbers of the recorded experiments, by their digests."""
+    return {entry.digest: number for number, entry in enumerate(record.experiments)}
 
 
 def _damaged(name: str, reason: str) -> ValueError:
@@ -202,13 +219,12 @@ def make(
             batches = {kept_run.batch for kept_run in results.runs(stored, experiment.runs)}
             mine = [kept[experiment.digest, run_number] for run_number in range(recorded.traced)]
             made_by = [results.origin_of(batch) for batch in sorted(batches)] + [trace.origin for trace in mine]
-            content = {key: value for key, value in experiment.content.items() if key not in ("rules", "maze")}
             entries.append(
                 Entry(
                     experiment.digest,
                     experiment.algorithm.name,
                     experiment.maze.name,
-                    content,
+                    experiment.seed,
                     experiment.runs,
                     recorded.traced,
                     round(float(table.seconds.sum()), 1),
@@ -245,7 +261,13 @@ def _write(entries: Sequence[Entry], origins: Sequence[Origin], lines: dict[str,
         (RECORD / name).write_bytes(content)
         files[name] = hashlib.sha256(content).hexdigest()
     record = Record(RULES, [entry._asdict() for entry in entries], [o._asdict() for o in origins], files)
-    (RECORD / SUMMARY).write_text(json.dumps(record._asdict(), indent=1) + "\n", encoding="utf-8", newline="\n")
+    parts = [f"{json.dumps(name)}: {_lines(value)}" for name, value in record._asdict().items()]
+    (RECORD / SUMMARY).write_text("{" + ",\n".join(parts) + "}\n", encoding="utf-8", newline="\n")
+
+
+def _lines(value: object) -> str:
+    """A value as JSON, a list with a line for each of its items."""
+    return "[\n" + ",\n".join(map(json.dumps, value)) + "\n]" if isinstance(value, list) else json.dumps(value)
 
 
 TraceKey = tuple[str, int]  # the digest of an experiment, and the number of its run
@@ -397,7 +419,7 @@ def _compare(
 
 
 def _label(entry: Entry) -> str:
-    return f"{entry.algorithm} on {entry.maze}, seed {entry.content['seed']}"
+    return f"{entry.algorithm} on {entry.maze}, seed {entry.seed}"
 
 
 def main() -> None:

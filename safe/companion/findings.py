@@ -4,7 +4,7 @@ Questions come from runs with one seed (`designs.EXPLORED`), and are decided by 
 by the rules of the ledger (`safe.companion.verdicts`):
 
 - a direction ("more often than"): by Fisher's exact test, or for a share of runs ("in most runs") by the binomial test
-  against one half, with Holm's correction for all questions of the same chapter;
+  against one half, with Holm's correction for all questions of the same design;
 - a likeness ("as often as"): by two one-sided tests against an effect of `statistics.MARGIN`, unless a difference is
   detected, by Fisher's test with the same correction.
 """
@@ -13,46 +13,36 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, fields
-from itertools import product
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, fields
 
 import pandas as pd
 from scipy import stats
 
+from safe.companion import evidence
 from safe.companion.claims import Claim
-from safe.companion.designs import Design, Level
-from safe.companion.paper import MAZES
+from safe.companion.designs import EXPLORED, RUNS, Design, Level
+from safe.companion.questions import Levels, Mechanism, Question, all_questions
 from safe.companion.verdicts import NOT_REPRODUCED, REPRODUCED, verdict
 from safe.experiments.experiment import Experiment
+from safe.maze import Maze
 from safe.results import formats
 from safe.results.statistics import compare_rates, holm, success_interval
 
+BEYOND = "beyond the paper"  # the family of its claims, with the name of the design
 CONFIRMED, NOT_CONFIRMED = "confirmed", "not confirmed"
 _WORDS = {REPRODUCED: CONFIRMED, NOT_REPRODUCED: NOT_CONFIRMED}
 
-Levels = Mapping[str, Level]  # of some factors of a design, by which cells are chosen
 Results = Mapping[Experiment, pd.DataFrame]
 
 
-@dataclass(frozen=True)
-class Question:
-    """Which of two groups of cells succeeds more often, or do they succeed equally often?"""
-
-    statement: str
-    first: Levels
-    second: Levels
-    direction: int = 0  # +1: the first more often; 0: equally often
-
-
-@dataclass(frozen=True)
-class Mechanism:
-    """Is something so in most of the traced runs of a cell that last for some generations?"""
-
-    statement: str
-    cell: Levels
-    holds: Callable[[pd.DataFrame], bool]  # in a run, given the measures of its windows
-    lasting: int = 0  # the first generation of a window that runs must have reached
+def explored(
+    make_design: Callable[[Sequence[Maze], int, int], Design], mazes: Sequence[Maze]
+) -> tuple[Design, Results]:
+    """The cells of a design that were explored on these mazes, and their recorded runs."""
+    design = make_design(mazes, RUNS[EXPLORED], EXPLORED)
+    results = evidence.runs(design.cells.values())
+    return Design(design.factors, {key: e for key, e in design.cells.items() if e in results}), results
 
 
 def cells_at(design: Design, levels: Levels) -> list[Experiment]:
@@ -144,16 +134,17 @@ def summary(table: pd.DataFrame) -> str:
 
 
 def answers(
-    chapter: str,
-    questions: Sequence[Question | Mechanism],
+    name: str,
     explored: tuple[Design, Results],
     confirmed: tuple[Design, Results],
     traces: Results,
 ) -> pd.DataFrame:
-    """The answers to the questions of a chapter, as rows of the ledger.
+    """The answers to the questions of a design, as rows of the ledger.
 
     Parameters
     ----------
+    name : str
+        Of the design, and of its questions (see `safe.companion.questions`).
     explored, confirmed : design, and the runs of its cells
         With the seed by which the questions were found, and with the one by which they are decided.
     traces : mapping of Experiment to DataFrame
@@ -166,7 +157,7 @@ def answers(
         on cells of which there is nothing, such as those of another maze, are left out.
     """
     rows = []
-    for question in questions:
+    for question in all_questions()[name]:
         try:
             if isinstance(question, Question):
                 rows.append(_compared(question, explored, confirmed))
@@ -175,7 +166,7 @@ def answers(
         except LookupError:
             continue
     columns = [field.name for field in fields(Claim)] + ["explored"]
-    table = pd.DataFrame(rows, columns=columns).set_index("claim").assign(family=f"beyond the paper: {chapter}")
+    table = pd.DataFrame(rows, columns=columns).set_index("claim").assign(family=f"{BEYOND}: {name}")
     table["p_adjusted"] = holm(table.p_value)
     table["verdict"] = [_WORDS[verdict(row)] for _, row in table.iterrows()]
     return table
@@ -200,12 +191,17 @@ def readable_answers(table: pd.DataFrame) -> pd.DataFrame:
 def _compared(question: Question, explored: tuple[Design, Results], confirmed: tuple[Design, Results]) -> dict:
     """The row of a question that two rates of success decide."""
     counts = [successes(*confirmed, levels) for levels in (question.first, question.second)]
-    seen = [successes(*explored, levels) for levels in (question.first, question.second)]
+    try:
+        seen = " against ".join(
+            formats.count(*successes(*explored, levels)) for levels in (question.first, question.second)
+        )
+    except LookupError:
+        seen = formats.DASH
     return {
         "claim": question.statement,
         "statement": question.statement,
         "here": " against ".join(formats.count(*counted) for counted in counts),
-        "explored": " against ".join(formats.count(*counted) for counted in seen),
+        "explored": seen,
         "test": "Fisher, Newcombe",
         "direction": question.direction,
         **asdict(compare_rates(*counts[0], *counts[1])),
@@ -233,236 +229,3 @@ def _counted(mechanism: Mechanism, design: Design, traces: Results) -> dict:
         "high": high - 0.5,
         "p_value": float(stats.binomtest(count, n).pvalue),
     }
-
-
-# The questions, by chapter
-
-RAW, SHARES, RANKS = "raw", "shares of the largest", "ranks"
-PAPERS, NONE, ALONE = "the paper's archive", "no archive", "no archive, mutation alone"
-LATER = 10  # generations, after which a run is beyond its beginning
-LONG = 100
-
-
-def all_questions() -> dict[str, list[Question | Mechanism]]:
-    """The questions of each design, by its name."""
-    return {
-        "selection": [*_selection()],
-        "archives": [*_archives()],
-        "capacities": [*_capacities()],
-        "mutualism": [*_mutualism()],
-    }
-
-
-def _selection() -> Iterator[Question | Mechanism]:
-    def cell(maze: str, condition: str, weighed: str, judge: str) -> Levels:
-        return {"maze": maze, "condition": condition, "weighed": weighed, "judge": judge}
-
-    for maze, condition in product(MAZES, (PAPERS, NONE)):
-        where, safe = f"on {maze} with {condition}", cell(maze, condition, RAW, "SAFE")
-        for other in ("novelty search", "SAFE, frozen", "one fixed sum", "a drawn judge"):
-            yield Question(f"SAFE succeeds as often as {_who(other)} {where}", safe, cell(maze, condition, RAW, other))
-        for weighed in (SHARES, RANKS):
-            yield Question(
-                f"SAFE succeeds more often if it weighs raw components than {weighed} {where}",
-                safe,
-                cell(maze, condition, weighed, "SAFE"),
-                1,
-            )
-    for maze in MAZES:
-        where = f"on {maze} with no archive"
-        for weighed, other in product((SHARES, RANKS), ("SAFE", "one fixed sum")):
-            yield Question(
-                f"A drawn judge of {weighed} succeeds more often than {_who(other)} of {weighed} {where}",
-                cell(maze, NONE, weighed, "a drawn judge"),
-                cell(maze, NONE, weighed, other),
-                1,
-            )
-        for weighed in (SHARES, RANKS):
-            yield Question(
-                f"Novelty search succeeds more often than a drawn judge of {weighed} {where}",
-                cell(maze, NONE, RAW, "novelty search"),
-                cell(maze, NONE, weighed, "a drawn judge"),
-                1,
-            )
-    yield Question(
-        "A drawn judge of shares of the largest succeeds more often than novelty search on maze2, "
-        "both with no archive and mutation alone",
-        cell("maze2", ALONE, SHARES, "a drawn judge"),
-        cell("maze2", ALONE, RAW, "novelty search"),
-        1,
-    )
-    for maze in MAZES:
-        raw, shares, ranks = (cell(maze, PAPERS, weighed, "SAFE") for weighed in (RAW, SHARES, RANKS))
-        yield Mechanism(
-            f"In most runs of SAFE on {maze}, at least 99 % of tournaments are won by a solution that none of the "
-            "others surpasses in novelty",
-            raw,
-            lambda windows: windows.by_novelty.mean() >= 0.99,
-        )
-        yield Mechanism(
-            f"In most runs of SAFE on {maze}, from generation {LATER} on, one objective function gives at least "
-            "90 % of the fitnesses of a generation, on average",
-            raw,
-            lambda windows: _later(windows).share.mean() >= 0.9,
-        )
-        yield Mechanism(
-            f"In most runs of SAFE on {maze}, selection for novelty is at least 5 times as strong as for closeness",
-            raw,
-            lambda windows: windows.differential_novelty.mean() >= 5 * windows.differential_closeness.mean(),
-        )
-        yield Mechanism(
-            f"In most runs of SAFE of shares of the largest on {maze}, selection is stronger for closeness than for "
-            f"novelty from generation {LATER} on",
-            shares,
-            lambda windows: _later(windows).differential_closeness.mean() > _later(windows).differential_novelty.mean(),
-        )
-        yield Mechanism(
-            f"In most runs of SAFE of ranks on {maze}, from generation {LATER} on, the objective function that gives "
-            "most fitnesses has both coefficients above 0.8, on average",
-            ranks,
-            lambda windows: min(_later(windows).a.mean(), _later(windows).b.mean()) > 0.8,
-        )
-
-
-def _archives() -> Iterator[Question | Mechanism]:
-    def cell(maze: str, search: str, archive: str) -> Levels:
-        return {"maze": maze, "algorithm": search, "archive": archive}
-
-    for maze, search in product(MAZES, ("novelty search", "SAFE")):
-        papers, who = cell(maze, search, "the paper's"), f"{_capital(search)} on {maze} succeeds"
-        for archive, words in (
-            ("none", "without an archive"),
-            ("random", "with random admission"),
-            ("threshold", "with Lehman and Stanley's threshold"),
-            ("the paper's, distinct cells", "with the paper's archive if it holds no cell twice"),
-            ("the paper's, rescored", "with the paper's archive if its scores are computed anew"),
-        ):
-            statement = f"{who} more often {words} than with the paper's archive"
-            yield Question(statement, cell(maze, search, archive), papers, 1)
-        yield Question(
-            f"{who} as often with the paper's archive if points enter after all are scored",
-            cell(maze, search, "the paper's, after scoring"),
-            papers,
-        )
-        yield Question(
-            f"{who} more often with random admission than without an archive",
-            cell(maze, search, "random"),
-            cell(maze, search, "none"),
-            1,
-        )
-    for maze in MAZES:
-        papers, who = cell(maze, "novelty search", "the paper's"), f"In most runs of novelty search on {maze}"
-        yield Mechanism(
-            f"{who}, the paper's archive is full after {LATER} generations",
-            papers,
-            lambda windows: windows[windows.window >= LATER].archive_size.min() >= 1000,
-            LATER,
-        )
-        yield Mechanism(
-            f"{who} that last {LONG} generations, its lowest score is above the mean novelty of the population at "
-            "the end",
-            papers,
-            lambda windows: _last(windows).archive_lowest > _last(windows).novelty,
-            LONG,
-        )
-        yield Mechanism(
-            f"{who} that last {LONG} generations, fewer than 10 of 200 solutions enter it in a generation at the end",
-            papers,
-            lambda windows: _last(windows).entered < 10,
-            LONG,
-        )
-        yield Mechanism(
-            f"{who} that last {LONG} generations, its points lie in fewer cells than two thirds of their number at "
-            "the end",
-            papers,
-            lambda windows: _last(windows).archive_cells < 2 / 3 * _last(windows).archive_size,
-            LONG,
-        )
-        for archive, words, is_below in (
-            ("the paper's", "the paper's archive", True),
-            ("none", "no archive", False),
-            ("random", "random admission", False),
-        ):
-            yield Mechanism(
-                f"{who} that last {LONG} generations, with {words}, the standard deviation of novelty is "
-                f"{'below' if is_below else 'above'} 40 % of its mean at the end",
-                cell(maze, "novelty search", archive),
-                lambda windows, is_below=is_below: (
-                    (_last(windows).novelty_sd < 0.4 * _last(windows).novelty) == is_below
-                ),
-                LONG,
-            )
-
-
-def _capacities() -> Iterator[Question]:
-    for maze, search in product(MAZES, ("novelty search", "SAFE")):
-        papers = {"maze": maze, "algorithm": search, "archive": "the paper's"}
-        for places in (100, 10_000):
-            yield Question(
-                f"{_capital(search)} on {maze} succeeds more often with {places:,} places in the paper's archive than "
-                "with 1,000",
-                papers | {"places": places},
-                papers | {"places": 1000},
-                1,
-            )
-
-
-def _mutualism() -> Iterator[Question | Mechanism]:
-    def cell(maze: str, condition: str, weighed: str, rating: str) -> Levels:
-        return {"maze": maze, "condition": condition, "weighed": weighed, "rating": rating}
-
-    for maze, condition, rating in product(MAZES, (PAPERS, NONE), ("Pearson", "Spearman")):
-        where, raw = f"on {maze} with {condition}", cell(maze, condition, RAW, rating)
-        yield Question(
-            f"SAFE succeeds as often if its objective functions are rated by {rating}'s correlation as by their "
-            f"novelty {where}",
-            raw,
-            cell(maze, condition, RAW, "genotypic novelty"),
-        )
-        for weighed in (SHARES, RANKS):
-            yield Question(
-                f"Rated by {rating}'s correlation, objective functions of raw components lead to success more often "
-                f"than those of {weighed} {where}",
-                raw,
-                cell(maze, condition, weighed, rating),
-                1,
-            )
-    for maze, rating in product(MAZES, ("Pearson", "Spearman")):
-        raw, shares = (cell(maze, PAPERS, weighed, rating) for weighed in (RAW, SHARES))
-        in_most = f"In most runs on {maze}, with objective functions rated by {rating}'s correlation"
-        yield Mechanism(
-            f"{in_most}, their mean coefficient of novelty is below 0.2 from generation {LATER} on",
-            raw,
-            lambda windows: _later(windows).mean_b.mean() < 0.2,
-        )
-        yield Mechanism(
-            f"{in_most}, at least 99 % of tournaments are nevertheless won by a solution that none of the "
-            "others surpasses in novelty",
-            raw,
-            lambda windows: windows.by_novelty.mean() >= 0.99,
-        )
-        yield Mechanism(
-            f"{in_most} and weighing shares of the largest, winners of tournaments are unsurpassed in closeness more "
-            f"often than in novelty from generation {LATER} on",
-            shares,
-            lambda windows: _later(windows).by_closeness.mean() > _later(windows).by_novelty.mean(),
-        )
-
-
-def _who(judge: str) -> str:
-    return {"SAFE, frozen": "SAFE with frozen objective functions"}.get(judge, judge)
-
-
-def _capital(text: str) -> str:
-    return text[0].upper() + text[1:]
-
-
-def _later(windows: pd.DataFrame) -> pd.DataFrame:
-    """The windows from LATER on; all of a run that has ended before."""
-    later = windows[windows.window >= LATER]
-    return later if len(later) else windows
-
-
-def _last(windows: pd.DataFrame) -> pd.Series:
-    """The last window of a run."""
-    return windows.iloc[-1]
