@@ -22,7 +22,7 @@ points enter after all are scored. By two rules, what enters takes the place of 
                 falls by 5 % after generations without an entry once they make 2500 evaluations, counted from the last
                 entry or fall
 
-The other three each change one thing about the paper's rule:
+The other three change the paper's rule: the first its order, the other two this and one thing more:
 
     after scoring   points are offered, in the order of the population, after all are scored
     distinct        as "after scoring", but no point enters a cell that the archive already holds
@@ -62,7 +62,7 @@ class ArchiveArrays(NamedTuple):
     """An archive as the compiled functions take it; changed in place."""
 
     points: np.ndarray  # float64, (dimensions, capacity)
-    scores: np.ndarray  # float64, (capacity,), as they were on entry, unless they are computed anew
+    scores: np.ndarray  # float64, (capacity,), as they were on entry, unless they are computed again
     entry: np.ndarray  # int64, (capacity,), 0 for the first point that ever entered
     heap: np.ndarray  # int64, (capacity,), places as a binary heap: the lowest score first, the oldest on a tie
     counts: np.ndarray  # int64, (2,): points in it now, points that ever entered
@@ -193,32 +193,29 @@ def score_cells(
     offering = admission == LOWEST_REPLACED
     for i in range(n):
         occupancy[RINGS + cells[i, 0], RINGS + cells[i, 1]] += 1
+    size = archive.counts[0]
     threshold = threshold_of(archive) if offering else np.inf
-    for i in range(n):
-        row, column = cells[i, 0], cells[i, 1]
-        scores[i] = _score_cell(row, column, occupancy, cells, archive, k)
+    for i in range(n + size if admission == RESCORED else n):  # one loop, so that the rings are compiled into it
+        if i < n:
+            row, column = cells[i, 0], cells[i, 1]
+        else:
+            row, column = int(archive.points[0, i - n]), int(archive.points[1, i - n])
+        wanted = min(k, n - 1 + size)
+        total = _sum_over_rings(RINGS + row, RINGS + column, occupancy, wanted)
+        if total < 0:
+            total = _sum_over_all(row, column, occupancy, cells, archive.points, size, wanted)
+        if i >= n:
+            archive.scores[i - n] = total / k
+            continue
+        scores[i] = total / k
         if scores[i] > threshold:
             replace_lowest(cells[i], scores[i], archive, occupancy)
+            size = archive.counts[0]
             threshold = threshold_of(archive)
     if admission == RESCORED:
-        for place in range(archive.counts[0]):
-            row, column = int(archive.points[0, place]), int(archive.points[1, place])
-            archive.scores[place] = _score_cell(row, column, occupancy, cells, archive, k)
         sort_heap(archive)
     for i in range(n):
         occupancy[RINGS + cells[i, 0], RINGS + cells[i, 1]] -= 1
-
-
-@kernel
-def _score_cell(
-    row: int, column: int, occupancy: np.ndarray, cells: np.ndarray, archive: ArchiveArrays, k: int
-) -> float:
-    """The novelty of one of the points, in the population or in the archive, that `occupancy` counts."""
-    wanted = min(k, len(cells) - 1 + archive.counts[0])
-    total = _sum_over_rings(RINGS + row, RINGS + column, occupancy, wanted)
-    if total < 0:
-        total = _sum_over_all(row, column, occupancy, cells, archive.points, archive.counts[0], wanted)
-    return total / k
 
 
 @kernel
@@ -244,8 +241,8 @@ def admit(
 ) -> None:
     """Admit scored cells to the archive, by a rule other than the paper's.
 
-    Where the oldest leave, places are taken round and round. `threshold` holds it, and the evaluations since the last
-    entry or fall; both are changed in place.
+    Where the oldest leave, places are taken round and round. `threshold` holds the threshold, and the evaluations since
+    the last entry or fall; both are changed in place.
     """
     points, archived_scores, entry, _, counts = archive
     n, capacity, entered = len(cells), len(archived_scores), counts[1]
@@ -384,60 +381,50 @@ def vacate(archive: ArchiveArrays) -> int:
 @kernel
 def enter(archive: ArchiveArrays, place: int, point: np.ndarray, score: float) -> None:
     """Let a point into the archive, at the place that `vacate` returned."""
-    points, scores, entry, _, counts = archive
+    points, scores, entry, heap, counts = archive
     for axis in range(len(point)):
         points[axis, place] = point[axis]
     scores[place] = score
     entry[place] = counts[1]
     counts[1] += 1
-    if place == counts[0]:  # it was free
+    if place == counts[0]:  # it was free: the point rises from the end of the heap
+        node = place
+        while node > 0 and score < scores[heap[(node - 1) // 2]]:
+            heap[node] = heap[(node - 1) // 2]
+            node = (node - 1) // 2
         counts[0] += 1
-        _rise(archive, place, place)
-    else:  # it was that of the lowest
-        _sink(archive, place)
-
-
-@kernel
-def sort_heap(archive: ArchiveArrays) -> None:
-    """Make the heap anew, after scores have changed."""
-    for place in range(archive.counts[0]):
-        _rise(archive, place, place)
-
-
-@kernel
-def _rise(archive: ArchiveArrays, place: int, node: int) -> None:
-    """Put a place into the heap at a node, the last so far, and let it rise as far as it has to."""
-    heap = archive.heap
-    while node > 0 and _is_lower(archive, place, heap[(node - 1) // 2]):
-        heap[node] = heap[(node - 1) // 2]
-        node = (node - 1) // 2
-    heap[node] = place
-
-
-@kernel
-def _sink(archive: ArchiveArrays, place: int) -> None:
-    """Put a place into the heap at the top, and let it sink as far as it has to."""
-    heap, node = archive.heap, 0
-    child = _lower_child(archive, node)
-    while child >= 0 and _is_lower(archive, heap[child], place):
-        heap[node] = heap[child]
-        node = child
+    else:  # it was that of the lowest: the point sinks from the top
+        node = 0
         child = _lower_child(archive, node)
+        while child >= 0 and scores[heap[child]] <= score:  # it is the youngest of equals
+            heap[node] = heap[child]
+            node = child
+            child = _lower_child(archive, node)
     heap[node] = place
-
-
-@kernel
-def _is_lower(archive: ArchiveArrays, one: int, other: int) -> bool:
-    """Has one place a lower score than another, or the same and an older point?"""
-    scores, entry = archive.scores, archive.entry
-    return scores[one] < scores[other] or (scores[one] == scores[other] and entry[one] < entry[other])
 
 
 @kernel
 def _lower_child(archive: ArchiveArrays, node: int) -> int:
-    """The child of a node of the heap that is lower; -1 if it has none."""
-    heap, counts = archive.heap, archive.counts
+    """The child of a node of the heap with the lower score, the older one on a tie; -1 if it has none."""
+    _, scores, entry, heap, counts = archive
     left, right = 2 * node + 1, 2 * node + 2
     if right >= counts[0]:
         return left if left < counts[0] else -1
-    return right if _is_lower(archive, heap[right], heap[left]) else left
+    one, other = heap[left], heap[right]
+    is_other = scores[other] < scores[one] or (scores[other] == scores[one] and entry[other] < entry[one])
+    return right if is_other else left
+
+
+@kernel
+def sort_heap(archive: ArchiveArrays) -> None:
+    """Rebuild the heap after scores have changed: sorted places, by insertion, since they are nearly so, are a heap."""
+    _, scores, entry, heap, counts = archive
+    for node in range(1, counts[0]):
+        place = heap[node]
+        while node > 0 and (
+            scores[heap[node - 1]] > scores[place]
+            or (scores[heap[node - 1]] == scores[place] and entry[heap[node - 1]] > entry[place])
+        ):
+            heap[node] = heap[node - 1]
+            node -= 1
+        heap[node] = place
