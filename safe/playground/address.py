@@ -26,7 +26,7 @@ from urllib.parse import quote
 import numpy as np
 
 from safe import checks
-from safe.algorithms import ALGORITHMS, Algorithm
+from safe.algorithms import ALGORITHMS, Algorithm, get_algorithm
 from safe.evolution import Seed, seed_sequence
 from safe.experiments.experiment import Experiment
 from safe.maze import Maze
@@ -60,12 +60,29 @@ def run_address(experiment: Experiment, run: int) -> str:
     """
     run = checks.integer("run", run, 0)
     return _address(
-        view="watch",
-        maze=_maze(experiment.maze),
-        algorithm=_algorithm(experiment.algorithm),
-        seed=f"0x{experiment.digest}/{run}",
-        **{name: str(value) for name, value in experiment.parameters.departures.items()},
+        ("view", "watch"),
+        ("maze", _maze(experiment.maze)),
+        ("algorithm", _algorithm(experiment.algorithm)),
+        ("seed", f"0x{experiment.digest}/{run}"),
+        *((name, str(value)) for name, value in experiment.parameters.departures.items()),
     )
+
+
+def side_by_side_address(maze: Maze | str, algorithms: Iterable[Algorithm | str], seed: Seed) -> str:
+    """The address at which the playground shows runs of several algorithms beside each other, with the same seed.
+
+    Raises
+    ------
+    ValueError
+        If a name is unknown, or the seed is not valid (see `seed_text`).
+
+    Examples
+    --------
+    >>> side_by_side_address("maze1", ["safe", Algorithm("frozen")], seed=7)
+    'view=watch&maze=maze1&algorithm=safe&algorithm=frozen:none:drawn&seed=7'
+    """
+    shown = [("algorithm", _algorithm(get_algorithm(algorithm))) for algorithm in algorithms]
+    return _address(("view", "watch"), ("maze", _maze(load_maze(maze))), *shown, ("seed", seed_text(seed)))
 
 
 def drive_address(maze: Maze | str, controller: np.ndarray | None = None) -> str:
@@ -90,10 +107,10 @@ def drive_address(maze: Maze | str, controller: np.ndarray | None = None) -> str
     >>> drive_address(Maze.from_drawing("S..\\n.#.\\n..G"), [0.5] + [0] * 15)
     'view=drive&maze=3x3/0,0/2,2/CAA&controller=0.5,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0'
     """
-    values = {"view": "drive", "maze": _maze(load_maze(maze))}
+    values = [("view", "drive"), ("maze", _maze(load_maze(maze)))]
     if controller is not None:
-        values["controller"] = _numbers(checks.array("controller", controller, (WEIGHTS,), -1, 1))
-    return _address(**values)
+        values.append(("controller", _numbers(checks.array("controller", controller, (WEIGHTS,), -1, 1))))
+    return _address(*values)
 
 
 def seed_text(seed: Seed) -> str:
@@ -145,8 +162,8 @@ def _read_numbers(text: str) -> tuple[int, ...]:
     return tuple(int(word, 16 if word.startswith("0x") else 10) for word in text.split(",") if word)
 
 
-def _address(**values: str) -> str:
-    return "&".join(f"{key}={quote(value, safe=READABLE)}" for key, value in values.items())
+def _address(*values: tuple[str, str]) -> str:
+    return "&".join(f"{key}={quote(value, safe=READABLE)}" for key, value in values)
 
 
 def _maze(maze: Maze) -> str:

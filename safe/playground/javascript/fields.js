@@ -37,7 +37,7 @@ const OPTIONS = { // by the names that they have in the package
   threshold: "all with novelty above a threshold",
   "after scoring": "the most novel, after all are scored",
   distinct: "the most novel, at most one a cell",
-  rescored: "the most novel, by scores computed anew",
+  rescored: "the most novel, by scores computed again",
   none: "nothing: they stay as drawn",
   "genotypic novelty": "being different (paper)",
   pearson: "scores that grow near the goal (Pearson)",

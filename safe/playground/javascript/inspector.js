@@ -5,7 +5,7 @@ import { titleOf } from "./labels.js";
 import { cellsText, percentage, shortNumber } from "./text.js";
 
 const MOST_SUMMANDS = 30; // of a novelty that are written out
-const STANDING_HEAD = ["Measure", "This robot", "Largest", "Rank"];
+const STANDING_HEAD = ["Measure", "This robot", "Largest", "Place"];
 
 export class Inspector {
   /** onselect: called with the index of a panel and the number of a robot. ondrive: with a controller. */
@@ -113,20 +113,20 @@ function makeSharesBar(share) {
 
 /** A robot beside the others of its generation, measure by measure; see worker.js. */
 function makeStandings(standings, robots) {
-  const rows = standings.map(({ measure, value, largest, rank }) => {
+  const rows = standings.map(({ measure, value, largest, place }) => {
     const share = largest > 0 ? Math.max(0, value) / largest : 0;
     return make(
       "tr",
       {},
       make("th", { scope: "row" }, measure),
       make("td", { class: "number bar", style: `--share: ${share}` }, shortNumber(value)),
-      ...[shortNumber(largest), rank].map((number) => make("td", { class: "number" }, number)),
+      ...[shortNumber(largest), place].map((number) => make("td", { class: "number" }, number)),
     );
   });
   return make(
     "table",
     { class: "standings" },
-    make("caption", {}, `Among the ${robots} robots of the generation (rank 1 is the best, and equals share a rank)`),
+    make("caption", {}, `Among the ${robots} robots of the generation (place 1 is the best, and equals share a place)`),
     makeTableHead(STANDING_HEAD, (i) => i > 0),
     make("tbody", {}, ...rows),
   );

@@ -58,7 +58,7 @@ export class Archive {
     this.dimensions = dimensions;
     this.capacity = capacity;
     this.points = new Float64Array(capacity * dimensions); // one point after the other
-    this.scores = new Float64Array(capacity); // as they were on entry, unless they are computed anew
+    this.scores = new Float64Array(capacity); // as they were on entry, unless they are computed again
     this.entry = new Float64Array(capacity); // 0 for the first point that ever entered
     this.size = 0;
     this.entered = 0; // points that ever entered
@@ -98,7 +98,7 @@ export class Archive {
     this.#findLowest();
   }
 
-  /** Compute all scores anew, from places. */
+  /** Compute all scores again, from places. */
   rescore(scoreAt) {
     for (let place = 0; place < this.size; place++) this.scores[place] = scoreAt(place);
     this.#findLowest();

@@ -95,7 +95,7 @@ function inspect(evolution, i) {
   };
 }
 
-/** The i-th solution beside the others of the generation, by each measure that it has; equal ones share a rank. */
+/** The i-th solution beside the others of the generation, by each measure that it has; equal ones share a place. */
 function standingsOf({ components, scaled, weighed, fitness, isRandomSearch }, i) {
   const isScaled = scaled !== components;
   const measures = [
@@ -109,6 +109,6 @@ function standingsOf({ components, scaled, weighed, fitness, isRandomSearch }, i
     measure,
     value: values[i],
     largest: values.reduce((largest, value) => Math.max(largest, value)),
-    rank: 1 + values.filter((other) => other > values[i]).length,
+    place: 1 + values.filter((other) => other > values[i]).length,
   }));
 }
