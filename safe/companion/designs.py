@@ -10,7 +10,7 @@ one run.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -20,9 +20,10 @@ from safe.companion.paper import MAZES
 from safe.experiments.experiment import Experiment
 from safe.maze import Maze
 from safe.maze_files import load_mazes
+from safe.results.labels import maze_labels
 
-EXPLORED, CONFIRMED = 100, 200  # seeds: of what was explored, and of what the questions are decided by
-RUNS = {EXPLORED: 100, CONFIRMED: 500}  # that are recorded, by seed
+EXPLORING, DECIDING = 100, 200  # seeds: of what was explored, and of what the questions are decided by
+RUNS = {EXPLORING: 100, DECIDING: 500}  # that are recorded, by seed
 TRACED = 20  # recorded runs of a cell inside which the mechanism is recorded, too
 SHARES = {
     "no archive": 0.6,
@@ -76,7 +77,7 @@ Level = str | int
 
 @dataclass(frozen=True)
 class Design:
-    """Experiments, each known by a level of every factor, the maze first."""
+    """Experiments, each known by a level of every factor, the maze's label first."""
 
     factors: tuple[str, ...]
     cells: Mapping[tuple[Level, ...], Experiment]
@@ -111,14 +112,15 @@ def everything() -> list[Recorded]:
     mazes, found = load_mazes(list(MAZES)), {}
     for design, (seed, runs) in product((selection, archives, mutualism, capacities, factorial, sizes), RUNS.items()):
         for key, experiment in design(mazes, runs, seed).cells.items():
-            traced = TRACED if seed == CONFIRMED and _is_traced(design.__name__, key) else 0
+            traced = TRACED if seed == DECIDING and is_traced(design.__name__, key) else 0
             known = found.get(experiment.digest, Recorded(experiment))  # it may be in an earlier design
-            most = max(experiment, known.experiment, key=lambda cell: cell.runs)
+            most = max(known.experiment, experiment, key=lambda cell: cell.runs)
             found[experiment.digest] = Recorded(most, max(traced, known.traced))
     return list(found.values())
 
 
-def _is_traced(design: str, key: tuple[Level, ...]) -> bool:
+def is_traced(design: str, key: tuple[Level, ...]) -> bool:
+    """Is the mechanism looked into in this cell of the design of this name?"""
     match design:
         case "selection":
             return key[1] != "no archive, mutation alone"
@@ -143,16 +145,16 @@ def selection(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
             for (weighed, judge), fields in judges.items():
                 yield (maze, condition, weighed, judge), fields, rules, condition
 
-    return _design(("maze", "condition", "weighed", "judge"), cells(), runs, seed)
+    return _design(("maze", "condition", "weighed", "judge"), mazes, cells(), runs, seed)
 
 
 def archives(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
-    """What the archive costs: rules of admission, and each part of the paper's rule changed alone."""
+    """What the archive costs: rules of admission, and parts of the paper's rule changed."""
     cells = (
         ((maze, search, archive), fields, rules, "archives")
         for maze, (search, fields), (archive, rules) in product(mazes, SEARCHES.items(), ARCHIVES.items())
     )
-    return _design(("maze", "algorithm", "archive"), cells, runs, seed)
+    return _design(("maze", "algorithm", "archive"), mazes, cells, runs, seed)
 
 
 def capacities(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
@@ -162,7 +164,7 @@ def capacities(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
         for maze, (search, fields), (archive, sizes) in product(mazes, SEARCHES.items(), PLACES.items())
         for places in sizes
     )
-    return _design(("maze", "algorithm", "archive", "places"), cells, runs, seed)
+    return _design(("maze", "algorithm", "archive", "places"), mazes, cells, runs, seed)
 
 
 def factorial(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
@@ -177,7 +179,7 @@ def factorial(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
                     own = rules | {"k": k} | ARCHIVES[archive]
                     yield (maze, search, k, size, variation, archive), fields, own, "factorial"
 
-    return _design(("maze", "algorithm", "k", "tournament", "variation", "archive"), cells(), runs, seed)
+    return _design(("maze", "algorithm", "k", "tournament", "variation", "archive"), mazes, cells(), runs, seed)
 
 
 def sizes(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
@@ -186,13 +188,14 @@ def sizes(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
 
     def cells() -> Iterator[tuple]:
         for maze, (search, fields, archive) in product(mazes, [("standard EA", STANDARD, "none"), *searched]):
+            own = ARCHIVES[archive] if search in SEARCHES else {}
             for population in POPULATIONS:
                 rules = {"population": population, "generations": Parameters().evaluations // population}
-                yield (maze, search, archive, population, 2), fields, rules | ARCHIVES[archive], "sizes"
+                yield (maze, search, archive, population, 2), fields, rules | own, "sizes"
             for elites in ELITES:
-                yield (maze, search, archive, 200, elites), fields, {"elites": elites} | ARCHIVES[archive], "sizes"
+                yield (maze, search, archive, 200, elites), fields, {"elites": elites} | own, "sizes"
 
-    return _design(("maze", "algorithm", "archive", "population", "elites"), cells(), runs, seed)
+    return _design(("maze", "algorithm", "archive", "population", "elites"), mazes, cells(), runs, seed)
 
 
 def mutualism(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
@@ -204,14 +207,17 @@ def mutualism(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
                 fields, kind = {"rating": rule, "scaling": scaling}, condition if weighed == "raw" else "mutualism"
                 yield (maze, condition, weighed, rating), fields, CONDITIONS[condition], kind
 
-    return _design(("maze", "condition", "weighed", "rating"), cells(), runs, seed)
+    return _design(("maze", "condition", "weighed", "rating"), mazes, cells(), runs, seed)
 
 
-def _design(factors: tuple[str, ...], cells: Iterator[tuple], runs: int, seed: int) -> Design:
+def _design(factors: tuple[str, ...], mazes: Sequence[Maze], cells: Iterable[tuple], runs: int, seed: int) -> Design:
     """A design from its cells: levels of the factors, fields of the algorithm, parameters, and a key of SHARES."""
+    runs = checks.integer("runs", runs, 1, checks.MOST)
+    labels = dict(zip(mazes, maze_labels(mazes), strict=True))  # two mazes may have one name
     experiments = {}
+    named_after = next(factor for factor in ("judge", "rating", "algorithm") if factor in factors)
     for (maze, *levels), fields, rules, kind in cells:
-        algorithm = Algorithm(", ".join(map(str, levels)), **fields)
+        algorithm = Algorithm(dict(zip(factors[1:], levels, strict=True))[named_after], **fields)
         share = max(1, round(runs * SHARES.get(kind, 1)))
-        experiments[(maze.name, *levels)] = Experiment(algorithm, maze, share, seed, Parameters(**rules))
+        experiments[(labels[maze], *levels)] = Experiment(algorithm, maze, share, seed, Parameters(**rules))
     return Design(factors, experiments)

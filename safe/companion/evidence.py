@@ -1,8 +1,8 @@
 """Evidence beyond the paper, recorded: runs for which a reader should not have to wait.
 
-    python -m safe.companion.evidence      makes everything in `safe.companion.designs`, and the record of it anew
+    python -m safe.companion.evidence      makes everything in `safe.companion.designs`, and the record of it, again
 
-The record is a folder of three files:
+The record is a folder of three files::
 
     runs.csv.xz     how each run ended, experiment by experiment, the runs of each in order
     traces.csv.xz   what happened inside the traced runs: for each window of generations, the measures of their
@@ -10,8 +10,8 @@ The record is a folder of three files:
     record.json     the rules; the experiments, whose places in this list, from 0, are their numbers in the other files;
                     what made their runs; and the SHA-256 of the other files
 
-Coefficients and measures have four significant digits, and everything else is exact. What follows from a column is left
-out: the evaluations from the generation, and a run's number from its place.
+Coefficients and measures have three significant digits, and everything else is exact. What follows from a column is
+left out: the evaluations from the generation, and a run's number from its place.
 """
 
 from __future__ import annotations
@@ -52,9 +52,9 @@ COLUMNS = {
     RUNS: ["experiment", "success", "generation", "distance", *COEFFICIENTS],
     TRACES: ["experiment", "run", "window", *mechanism.MEASURES],
 }
-_DIGITS = "%.4g"  # of a fraction: any more, and the record would be several times as large
+_DIGITS = "%.3g"  # of a fraction: more would make the record much larger
 _FILTERS = [{"id": lzma.FILTER_LZMA2, "preset": 9 | lzma.PRESET_EXTREME, "lc": 4, "pb": 0}]  # for text
-_ANEW = "make evidence makes it anew"
+_AGAIN = "make evidence makes it again"
 
 
 class Entry(NamedTuple):
@@ -66,7 +66,7 @@ class Entry(NamedTuple):
     seed: int
     runs: int
     traced: int
-    core_seconds: float  # that its runs took
+    population: int
     origins: list[int]  # of its runs and traces, by their places in the record's list
 
 
@@ -97,7 +97,7 @@ def runs(
     Returns
     -------
     dict of Experiment to DataFrame
-        The columns of `safe.run`; of recorded runs without p1..p16 and seconds, and with a and b to four digits.
+        The columns of `safe.run`; of recorded runs without p1..p16 and seconds, and with a and b to three digits.
 
     Raises
     ------
@@ -119,7 +119,9 @@ def runs(
     return results
 
 
-def traces(experiments: Iterable[Experiment], traced: int) -> dict[Experiment, pd.DataFrame]:
+def traces(
+    experiments: Sequence[Experiment], traced: int, resources: dict[str, object] | None = None
+) -> dict[Experiment, pd.DataFrame]:
     """What happened inside the first runs of experiments.
 
     It is recorded of some experiments. In experiments of which not even runs are recorded, as on another maze or with
@@ -127,9 +129,11 @@ def traces(experiments: Iterable[Experiment], traced: int) -> dict[Experiment, p
 
     Parameters
     ----------
-    experiments : iterable of Experiment
+    experiments : sequence of Experiment
     traced : int
         Of how many runs at most.
+    resources : dict, optional
+        As in `runs`, for what is observed now. Without them nothing is.
 
     Returns
     -------
@@ -144,25 +148,44 @@ def traces(experiments: Iterable[Experiment], traced: int) -> dict[Experiment, p
     traced = checks.integer("traced", traced, 0)
     record = _record()
     numbers, tables = _numbers(record), dict(iter(_table(TRACES, record).groupby("experiment")))
-    results = {}
+    unknown = [experiment for experiment in experiments if experiment.digest not in numbers]
+    found = _observed(unknown, traced, **resources) if resources is not None else {}
     for experiment in experiments:
-        number, wanted = numbers.get(experiment.digest), min(traced, experiment.runs)
-        if number is None and wanted:
-            lines = [line for i in range(wanted) for line in _trace_lines(0, i, make_trace(experiment, i))]
-            found = _parsed(TRACES, "\n".join([",".join(COLUMNS[TRACES]), *lines]))
-        elif number in tables:
-            found = tables[number][tables[number].run < wanted]
-        else:
-            continue
-        if len(found):
-            results[experiment] = found.drop(columns="experiment").reset_index(drop=True)
-    return results
+        number = numbers.get(experiment.digest)
+        if number in tables:
+            found[experiment] = tables[number][tables[number].run < min(traced, experiment.runs)]
+    return {e: found[e].drop(columns="experiment").reset_index(drop=True) for e in experiments if len(found.get(e, ()))}
+
+
+def _observed(
+    experiments: Sequence[Experiment], traced: int, executor: Executor | None, cores: int | None, **_: object
+) -> dict[Experiment, pd.DataFrame]:
+    """The traces of the first runs of these experiments, made now."""
+    wanted = {(e.digest, number): e for e in experiments for number in range(min(traced, e.runs))}
+    made: dict[Experiment, list[str]] = {}
+    for key, trace in sorted(_computed_traces(wanted, executor, cores), key=lambda one: one[0]):
+        made.setdefault(wanted[key], []).extend(_trace_lines(0, key[1], trace))
+    header = ",".join(COLUMNS[TRACES])
+    return {experiment: _parsed(TRACES, "\n".join([header, *lines])) for experiment, lines in made.items()}
+
+
+def extent() -> pd.DataFrame:
+    """How much is recorded, in a row: experiments, runs, traces, and evaluations of solutions."""
+    record = _record()
+    runs, populations = _table(RUNS, record), [entry.population for entry in record.experiments]
+    row = {
+        "experiments": len(record.experiments),
+        "runs": len(runs),
+        "traces": sum(entry.traced for entry in record.experiments),
+        "evaluations": int(((runs.generation + 1) * runs.experiment.map(dict(enumerate(populations)))).sum()),
+    }
+    return pd.DataFrame(row, index=["recorded"])
 
 
 def _record() -> Record:
     try:
         rules, experiments, origins, files = Record(**json.loads((RECORD / SUMMARY).read_bytes()))
-        return Record(rules, [Entry(**e) for e in experiments], [Origin(**o) for o in origins], dict(files))
+        return Record(rules, [Entry(*e) for e in experiments], [Origin(**o) for o in origins], dict(files))
     except (OSError, TypeError, ValueError) as error:
         raise _damaged(SUMMARY, checks.reason(error)) from None
 
@@ -193,7 +216,7 @@ def _numbers(record: Record) -> dict[str, int]:
 
 
 def _damaged(name: str, reason: str) -> ValueError:
-    return ValueError(f"record must hold what was written to it; got {str(RECORD / name)!r} ({reason}): {_ANEW}")
+    return ValueError(f"record must hold what was written to it; got {str(RECORD / name)!r} ({reason}): {_AGAIN}")
 
 
 # Making it
@@ -208,12 +231,12 @@ def make(
     continues where it stopped. Arguments and errors are those of `safe.run`.
     """
     designed = designs.everything()
-    tables = [run(recorded.experiment, store, executor, progress, cores) for recorded in designed]
+    tables = {r.experiment: run(r.experiment, store, executor, progress, cores) for r in designed}
     kept = _made_traces(designed, Path(store), executor, cores, progress)
     origins: dict[Origin, int] = {}
     entries, lines = [], []
     with Store.for_reading(store) as results:
-        for number, (recorded, table) in enumerate(zip(designed, tables, strict=True)):
+        for number, recorded in enumerate(designed):
             experiment = recorded.experiment
             (stored,) = results.experiments(experiment.digest)
             batches = {kept_run.batch for kept_run in results.runs(stored, experiment.runs)}
@@ -227,13 +250,13 @@ def make(
                     experiment.seed,
                     experiment.runs,
                     recorded.traced,
-                    round(float(table.seconds.sum()), 1),
+                    experiment.parameters.population,
                     sorted({origins.setdefault(o._replace(time=None), len(origins)) for o in made_by}),
                 )
             )
             for run_number, trace in enumerate(mine):
                 lines += _trace_lines(number, run_number, trace)
-    ended = [line for number, table in enumerate(tables) for line in _run_lines(number, table)]
+    ended = [line for number, table in enumerate(tables.values()) for line in _run_lines(number, table)]
     _write(entries, list(origins), {RUNS: ended, TRACES: lines})
 
 
@@ -260,7 +283,7 @@ def _write(entries: Sequence[Entry], origins: Sequence[Origin], lines: dict[str,
         content = lzma.compress(text.encode(), filters=_FILTERS)
         (RECORD / name).write_bytes(content)
         files[name] = hashlib.sha256(content).hexdigest()
-    record = Record(RULES, [entry._asdict() for entry in entries], [o._asdict() for o in origins], files)
+    record = Record(RULES, list(entries), [o._asdict() for o in origins], files)
     parts = [f"{json.dumps(name)}: {_lines(value)}" for name, value in record._asdict().items()]
     (RECORD / SUMMARY).write_text("{" + ",\n".join(parts) + "}\n", encoding="utf-8", newline="\n")
 
@@ -365,7 +388,7 @@ def verify(sample: int = 5, traces: int = 1, seed: int | None = None) -> tuple[i
     _check_design(record, designed)
     (_, *ended), (header, *traced) = (_text(name, record).splitlines() for name in (RUNS, TRACES))
     if header != ",".join(COLUMNS[TRACES]):
-        raise ValueError(f"record must hold the measures of this version; got {checks.shown(header)}: {_ANEW}")
+        raise ValueError(f"record must hold the measures of this version; got {checks.shown(header)}: {_AGAIN}")
 
     drawn_runs = _drawn(draw, sample, [entry.runs for entry in record.experiments])
     for number, i in drawn_runs:
@@ -390,7 +413,7 @@ def _drawn(draw: np.random.Generator, sample: int, sizes: Sequence[int]) -> list
 def _check_design(record: Record, designed: Sequence[Recorded]) -> None:
     """Raise a ValueError unless this is the record of these experiments, by the rules of this version."""
     if record.rules != RULES:
-        raise ValueError(f"record must follow the rules {RULES} of this version; got {record.rules}: {_ANEW}")
+        raise ValueError(f"record must follow the rules {RULES} of this version; got {record.rules}: {_AGAIN}")
     recorded = [(entry.digest, entry.runs, entry.traced) for entry in record.experiments]
     wanted = [(design.experiment.digest, design.experiment.runs, design.traced) for design in designed]
     if recorded != wanted:
@@ -398,7 +421,7 @@ def _check_design(record: Record, designed: Sequence[Recorded]) -> None:
         label = _label(record.experiments[first]) if first < len(recorded) else "none"
         raise ValueError(
             "record must hold the experiments of safe.companion.designs, with as many runs and traces; "
-            f"got another as number {first} ({label}): {_ANEW}"
+            f"got another as number {first} ({label}): {_AGAIN}"
         )
 
 
@@ -419,7 +442,7 @@ def _compare(
 
 
 def _label(entry: Entry) -> str:
-    return f"{entry.algorithm} on {entry.maze}, seed {entry.seed}"
+    return f"{entry.algorithm} on {entry.maze}, seed {entry.seed} ({entry.digest[:8]})"
 
 
 def main() -> None:

@@ -107,14 +107,14 @@ def summary(table: pd.DataFrame) -> pd.DataFrame:
     return counts.rename_axis(index="claims", columns=None)
 
 
-def recorded() -> pd.DataFrame:
-    """The ledger of 500 runs of each experiment, seed 0, as a person last examined and recorded it."""
-    return pd.read_csv(RECORD, index_col="claim", keep_default_na=False, na_values=[""])
+def recorded(record: Path = RECORD) -> pd.DataFrame:
+    """A ledger as a person last examined and recorded it: of 500 runs of each of the paper's experiments, seed 0."""
+    return pd.read_csv(record, index_col="claim", keep_default_na=False, na_values=[""])
 
 
-def changed(table: pd.DataFrame) -> list[str]:
+def changed(table: pd.DataFrame, record: Path = RECORD) -> list[str]:
     """A line for each claim with the recorded evidence and another verdict."""
-    record = recorded().reindex(table.index)
+    record = recorded(record).reindex(table.index)
     other = (table.evidence == record.evidence) & (table.verdict != record.verdict)
     return [f"{claim}: was {record.verdict[claim]!r}, is {table.verdict[claim]!r}" for claim in table.index[other]]
 

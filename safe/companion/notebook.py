@@ -29,6 +29,7 @@ def prepare() -> None:
     """
     figures.use_style()
     pd.set_option("display.html.use_mathjax", False)
+    pd.set_option("display.max_colwidth", None)
     shell = get_ipython()
     if shell is not None:
         formatter = shell.display_formatter.mimebundle_formatter

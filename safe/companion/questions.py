@@ -26,15 +26,26 @@ class Question:
     second: Levels
     direction: int = 0  # +1: the first more often; 0: equally often
 
+    @property
+    def maze(self) -> Level:
+        return self.first["maze"]
+
 
 @dataclass(frozen=True)
 class Mechanism:
-    """Is something so in most of the traced runs of a cell that last for some generations?"""
+    """Does something hold in most of the traced runs of a cell that last for some generations?
+
+    Means over windows count each window of a run alike, so the first generations count more than their number.
+    """
 
     statement: str
     cell: Levels
     holds: Callable[[pd.DataFrame], bool]  # in a run, given the measures of its windows
     lasting: int = 0  # the first generation of a window that runs must have reached
+
+    @property
+    def maze(self) -> Level:
+        return self.cell["maze"]
 
 
 RAW, SHARES, RANKS = "raw", "shares of the largest", "ranks"
@@ -60,9 +71,14 @@ def _selection() -> Iterator[Question | Mechanism]:
         return {"maze": maze, "condition": condition, "weighed": weighed, "judge": judge}
 
     for maze, condition in product(MAZES, (PAPERS, NONE)):
-        where, safe = f"on {maze} with {condition}", cell(maze, condition, RAW, "SAFE")
-        for other in ("novelty search", "SAFE, frozen", "one fixed sum", "a drawn judge"):
-            yield Question(f"SAFE succeeds as often as {_who(other)} {where}", safe, cell(maze, condition, RAW, other))
+        where, safe = f"({condition})", cell(maze, condition, RAW, "SAFE")
+        for other, words in (
+            ("novelty search", "novelty search"),
+            ("SAFE, frozen", "with frozen objective functions"),
+            ("one fixed sum", "one fixed sum"),
+            ("a drawn judge", "with a drawn judge"),
+        ):
+            yield Question(f"SAFE succeeds as often as {words} {where}", safe, cell(maze, condition, RAW, other))
         for weighed in (SHARES, RANKS):
             yield Question(
                 f"SAFE succeeds more often if it weighs raw components than {weighed} {where}",
@@ -71,10 +87,10 @@ def _selection() -> Iterator[Question | Mechanism]:
                 1,
             )
     for maze in MAZES:
-        where = f"on {maze} with no archive"
+        where = "(no archive)"
         for weighed, other in product((SHARES, RANKS), ("SAFE", "one fixed sum")):
             yield Question(
-                f"A drawn judge of {weighed} succeeds more often than {_who(other)} of {weighed} {where}",
+                f"A drawn judge of {weighed} succeeds more often than {other} of {weighed} {where}",
                 cell(maze, NONE, weighed, "a drawn judge"),
                 cell(maze, NONE, weighed, other),
                 1,
@@ -87,7 +103,7 @@ def _selection() -> Iterator[Question | Mechanism]:
                 1,
             )
     yield Question(
-        "A drawn judge of shares of the largest succeeds more often than novelty search on maze2, "
+        "A drawn judge of shares of the largest succeeds more often than novelty search, "
         "both with no archive and mutation alone",
         cell("maze2", ALONE, SHARES, "a drawn judge"),
         cell("maze2", ALONE, RAW, "novelty search"),
@@ -96,30 +112,30 @@ def _selection() -> Iterator[Question | Mechanism]:
     for maze in MAZES:
         raw, shares, ranks = (cell(maze, PAPERS, weighed, "SAFE") for weighed in (RAW, SHARES, RANKS))
         yield Mechanism(
-            f"In most runs of SAFE on {maze}, at least 99 % of tournaments are won by a solution that none of the "
+            "In most runs of SAFE, at least 99 % of tournaments are won by a solution that none of the "
             "others surpasses in novelty",
             raw,
             lambda windows: windows.by_novelty.mean() >= 0.99,
         )
         yield Mechanism(
-            f"In most runs of SAFE on {maze}, from generation {LATER} on, one objective function gives at least "
+            f"In most runs of SAFE, from generation {LATER} on, one objective function gives at least "
             "90 % of the fitnesses of a generation, on average",
             raw,
             lambda windows: _later(windows).share.mean() >= 0.9,
         )
         yield Mechanism(
-            f"In most runs of SAFE on {maze}, selection for novelty is at least 5 times as strong as for closeness",
+            "In most runs of SAFE, selection for novelty is at least 5 times as strong as for closeness",
             raw,
             lambda windows: windows.differential_novelty.mean() >= 5 * windows.differential_closeness.mean(),
         )
         yield Mechanism(
-            f"In most runs of SAFE of shares of the largest on {maze}, selection is stronger for closeness than for "
+            f"In most runs of SAFE of shares of the largest, selection is stronger for closeness than for "
             f"novelty from generation {LATER} on",
             shares,
             lambda windows: _later(windows).differential_closeness.mean() > _later(windows).differential_novelty.mean(),
         )
         yield Mechanism(
-            f"In most runs of SAFE of ranks on {maze}, from generation {LATER} on, the objective function that gives "
+            f"In most runs of SAFE of ranks, from generation {LATER} on, the objective function that gives "
             "most fitnesses has both coefficients above 0.8, on average",
             ranks,
             lambda windows: min(_later(windows).a.mean(), _later(windows).b.mean()) > 0.8,
@@ -131,13 +147,13 @@ def _archives() -> Iterator[Question | Mechanism]:
         return {"maze": maze, "algorithm": search, "archive": archive}
 
     for maze, search in product(MAZES, ("novelty search", "SAFE")):
-        papers, who = cell(maze, search, "the paper's"), f"{_capital(search)} on {maze} succeeds"
+        papers, who = cell(maze, search, "the paper's"), f"{_capital(search)} succeeds"
         for archive, words in (
             ("none", "without an archive"),
             ("random", "with random admission"),
             ("threshold", "with Lehman and Stanley's threshold"),
             ("the paper's, distinct cells", "with the paper's archive if it holds no cell twice"),
-            ("the paper's, rescored", "with the paper's archive if its scores are computed anew"),
+            ("the paper's, rescored", "with the paper's archive if its scores are computed again"),
         ):
             statement = f"{who} more often {words} than with the paper's archive"
             yield Question(statement, cell(maze, search, archive), papers, 1)
@@ -153,7 +169,7 @@ def _archives() -> Iterator[Question | Mechanism]:
             1,
         )
     for maze in MAZES:
-        papers, who = cell(maze, "novelty search", "the paper's"), f"In most runs of novelty search on {maze}"
+        papers, who = cell(maze, "novelty search", "the paper's"), "In most runs of novelty search"
         yield Mechanism(
             f"{who}, the paper's archive is full after {LATER} generations",
             papers,
@@ -161,21 +177,22 @@ def _archives() -> Iterator[Question | Mechanism]:
             LATER,
         )
         yield Mechanism(
-            f"{who} that last {LONG} generations, its lowest score is above the mean novelty of the population at "
-            "the end",
+            f"{who} that last {LONG} generations, the lowest score in the paper's archive is above the mean novelty of "
+            "the population at the end",
             papers,
             lambda windows: _last(windows).archive_lowest > _last(windows).novelty,
             LONG,
         )
         yield Mechanism(
-            f"{who} that last {LONG} generations, fewer than 10 of 200 solutions enter it in a generation at the end",
+            f"{who} that last {LONG} generations, fewer than 10 of 200 solutions enter the paper's archive in a "
+            "generation at the end",
             papers,
             lambda windows: _last(windows).entered < 10,
             LONG,
         )
         yield Mechanism(
-            f"{who} that last {LONG} generations, its points lie in fewer cells than two thirds of their number at "
-            "the end",
+            f"{who} that last {LONG} generations, the points of the paper's archive lie in fewer cells than two "
+            "thirds of their number at the end",
             papers,
             lambda windows: _last(windows).archive_cells < 2 / 3 * _last(windows).archive_size,
             LONG,
@@ -201,8 +218,7 @@ def _capacities() -> Iterator[Question]:
         papers = {"maze": maze, "algorithm": search, "archive": "the paper's"}
         for places in (100, 10_000):
             yield Question(
-                f"{_capital(search)} on {maze} succeeds more often with {places:,} places in the paper's archive than "
-                "with 1,000",
+                f"{_capital(search)} succeeds more often with {places:,} places in the paper's archive than with 1,000",
                 papers | {"places": places},
                 papers | {"places": 1000},
                 1,
@@ -214,7 +230,7 @@ def _mutualism() -> Iterator[Question | Mechanism]:
         return {"maze": maze, "condition": condition, "weighed": weighed, "rating": rating}
 
     for maze, condition, rating in product(MAZES, (PAPERS, NONE), ("Pearson", "Spearman")):
-        where, raw = f"on {maze} with {condition}", cell(maze, condition, RAW, rating)
+        where, raw = f"({condition})", cell(maze, condition, RAW, rating)
         yield Question(
             f"SAFE succeeds as often if its objective functions are rated by {rating}'s correlation as by their "
             f"novelty {where}",
@@ -231,7 +247,7 @@ def _mutualism() -> Iterator[Question | Mechanism]:
             )
     for maze, rating in product(MAZES, ("Pearson", "Spearman")):
         raw, shares = (cell(maze, PAPERS, weighed, rating) for weighed in (RAW, SHARES))
-        in_most = f"In most runs on {maze}, with objective functions rated by {rating}'s correlation"
+        in_most = f"In most runs with objective functions rated by {rating}'s correlation"
         yield Mechanism(
             f"{in_most}, their mean coefficient of novelty is below 0.2 from generation {LATER} on",
             raw,
@@ -255,7 +271,7 @@ def _factorial() -> Iterator[Question]:
     papers = {"k": 15, "tournament": 5, "variation": "crossover and mutation", "archive": "the paper's"}
     best = {"k": 15, "tournament": 20, "variation": "mutation alone", "archive": "random"}
     for maze, search in product(MAZES, ("novelty search", "SAFE")):
-        where, who = {"maze": maze, "algorithm": search}, f"{_capital(search)} on {maze} succeeds"
+        where, who = {"maze": maze, "algorithm": search}, f"{_capital(search)} succeeds"
         for factor, more, less, words in (
             ("k", 15, 1, "with k = 15 than with k = 1"),
             ("tournament", 20, 2, "with tournaments of 20 than with tournaments of 2"),
@@ -285,7 +301,7 @@ def _factorial() -> Iterator[Question]:
     for maze in MAZES:
         where = {"maze": maze, "algorithm": "novelty search", "archive": "none"}
         yield Question(
-            f"Novelty search on {maze} succeeds more often without an archive with k = 15 than with k = 200",
+            "Novelty search succeeds more often without an archive with k = 15 than with k = 200",
             where | {"k": 15},
             where | {"k": 200},
             1,
@@ -296,16 +312,12 @@ def _sizes() -> Iterator[Question]:
     for maze, search in product(MAZES, ("novelty search", "SAFE")):
         cell = {"maze": maze, "algorithm": search, "archive": "none", "elites": 2}
         yield Question(
-            f"{_capital(search)} on {maze} without an archive succeeds more often with a population of 200 than with "
+            f"{_capital(search)} without an archive succeeds more often with a population of 200 than with "
             "one of 50, at equal cost",
             cell | {"population": 200},
             cell | {"population": 50},
             1,
         )
-
-
-def _who(judge: str) -> str:
-    return {"SAFE, frozen": "SAFE with frozen objective functions"}.get(judge, judge)
 
 
 def _capital(text: str) -> str:

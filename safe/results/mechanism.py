@@ -71,7 +71,7 @@ def observe(experiment: Experiment, story: Iterable[Generation]) -> pd.DataFrame
     Returns
     -------
     pandas.DataFrame of float64, one row for each generation, indexed by its number
-        The columns of MEASURES. A measure that makes no sense is not a number: those of novelty and of the archive if
+        The columns of MEASURES. A measure that does not apply is not a number: those of novelty and of the archive if
         no objective function can weigh novelty, those of selection and of objective functions in random search, and
         the lowest score in an empty archive.
 

@@ -13,11 +13,13 @@ rates, unless hardly any run succeeds. 0.2 is 10 percentage points near a rate o
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 import pandas as pd
-from scipy import stats
+from scipy import optimize, special, stats
 from statsmodels.duration.survfunc import SurvfuncRight, survdiff
 from statsmodels.stats.multitest import multipletests
 from statsmodels.stats.power import NormalIndPower
@@ -134,6 +136,74 @@ def runs_needed(rate: float, other_rate: float, power: float = 0.8) -> int:
     """
     effect = proportion_effectsize(rate, other_rate)
     return math.ceil(NormalIndPower().solve_power(abs(effect), alpha=ALPHA, power=power))
+
+
+def analysis_of_deviance(rates: pd.DataFrame, factors: Sequence[str]) -> pd.DataFrame:
+    """How much each factor of a designed experiment matters for success, and each pair of factors together.
+
+    A logistic model has an effect for every level of every factor. The deviance of a factor is what the model loses
+    without it, and that of a pair what it gains with an effect for every combination of their levels: both are
+    likelihood-ratio tests.
+
+    Parameters
+    ----------
+    rates : DataFrame, one row for each cell
+        With the columns successes, runs, and those of the factors.
+    factors : sequence of str
+
+    Returns
+    -------
+    pandas.DataFrame, indexed by factor, or "one x other"
+        deviance; df, its degrees of freedom; p_value; span, of a factor: the largest less the smallest rate of success
+        among its levels, other factors taken together.
+
+    Examples
+    --------
+    >>> rates = pd.DataFrame({"k": [1, 1, 15, 15], "archive": ["none", "full"] * 2})
+    >>> rates = rates.assign(successes=[10, 12, 20, 22], runs=30)
+    >>> analysis_of_deviance(rates, ["k", "archive"]).round(3)["p_value"].tolist()
+    [0.0, 0.437, 0.969]
+    """
+    main = [(factor,) for factor in factors]
+    rows = {}
+    for factor in factors:
+        rows[factor] = _gain(rates, [term for term in main if term != (factor,)], (factor,))
+    for pair in combinations(factors, 2):
+        rows[" x ".join(pair)] = _gain(rates, main, pair)
+    return pd.DataFrame.from_dict(rows, orient="index")
+
+
+def _gain(rates: pd.DataFrame, terms: Sequence[tuple[str, ...]], further: tuple[str, ...]) -> dict[str, float]:
+    """What a model with these terms gains with a further one."""
+    (less, fewer), (more, parameters) = (_likelihood(rates, of_model) for of_model in (terms, [*terms, further]))
+    deviance, df = 2 * (more - less), parameters - fewer
+    gain = {"deviance": deviance, "df": df, "p_value": stats.chi2.sf(deviance, df)}
+    if len(further) == 1:
+        counts = rates.groupby(list(further))[["successes", "runs"]].sum()
+        share = counts.successes / counts.runs
+        gain["span"] = share.max() - share.min()
+    return gain
+
+
+def _likelihood(rates: pd.DataFrame, terms: Sequence[tuple[str, ...]]) -> tuple[float, int]:
+    """The logarithm of the largest likelihood of a logistic model, and the number of its free parameters.
+
+    It is found by minimising, not by weighted least squares: if no run of a level succeeds, its effect has no limit,
+    but the likelihood has.
+    """
+    columns = [np.ones((len(rates), 1))]
+    for term in terms:
+        columns.append(pd.get_dummies(rates[list(term)].astype(str).agg("/".join, axis=1)).to_numpy(float))
+    design = np.hstack(columns)
+    successes, runs = rates.successes.to_numpy(float), rates.runs.to_numpy(float)
+
+    def loss(effects: np.ndarray) -> tuple[float, np.ndarray]:
+        logits = design @ effects
+        value = (runs * np.logaddexp(0, logits) - successes * logits).sum()
+        return value, design.T @ (runs * special.expit(logits) - successes)
+
+    found = optimize.minimize(loss, np.zeros(design.shape[1]), jac=True, method="L-BFGS-B", options={"maxiter": 5000})
+    return -float(found.fun), int(np.linalg.matrix_rank(design))
 
 
 def success_curve(runs: pd.DataFrame) -> pd.DataFrame:

@@ -52,6 +52,13 @@ def test_numbers_are_exported_by_column_and_index(shell):
     assert exported(pd.DataFrame({"claims": [3]}, ["all"])) == {"claims_all": 3}
 
 
+def test_sentences_with_numbers_are_shown_as_markdown(shell):
+    with capture_output(stdout=False, stderr=False) as captured:
+        notebook.say("**326** of 500 runs\n- 3 of 4")
+    (output,) = captured.outputs
+    assert output.data == dict.fromkeys(["text/markdown", "text/plain"], "**326** of 500 runs\n- 3 of 4")
+
+
 def test_a_table_with_links_is_shown_as_it_is_and_its_links_beside_the_csv(shell):
     notebook.prepare()
     table = pd.DataFrame({"n": [1, 2]}, index=pd.Index(["a", "b"], name="which"))

@@ -1,6 +1,7 @@
 """The runs behind the recorded ledger, kept so that a test notices a changed verdict without making them all again.
 
-    python -m tests.helpers.record    makes tests/data/runs.npz and safe/companion/ledger.csv from results.sqlite
+    python -m tests.helpers.record    makes tests/data/runs.npz and safe/companion/ledger.csv from results.sqlite,
+                                      and safe/companion/findings.csv from the recorded evidence
 
 The record keeps how each run ended, and its evolved values if the ledger uses them. Examine what has changed in the
 ledger before you commit it: a verdict that changes is news.
@@ -12,8 +13,9 @@ import numpy as np
 import pandas as pd
 
 import safe
-from safe.companion import ledger, paper
+from safe.companion import designs, findings, ledger, paper
 from safe.experiments.experiment import COEFFICIENTS, WEIGHT_COLUMNS
+from safe.maze_files import load_mazes
 
 FILE = Path(__file__).parents[1] / "data" / "runs.npz"
 COLUMNS = ["generation", "distance", *COEFFICIENTS, *WEIGHT_COLUMNS]
@@ -58,6 +60,16 @@ def recorded_runs():
     return found
 
 
+def write(table, file):
+    """Write a ledger, so that the same one always gives the same bytes."""
+    table.to_csv(file, float_format="%.4g", lineterminator="\n")
+
+
+def answers():
+    """The answers to all questions beyond the paper."""
+    return findings.beyond_the_paper(load_mazes(list(paper.MAZES)), designs.RUNS[designs.DECIDING])
+
+
 if __name__ == "__main__":
     results = {experiment: safe.run(experiment, "results.sqlite") for experiment in experiments()}
     repeats = {
@@ -67,4 +79,5 @@ if __name__ == "__main__":
     }
     everything = results | repeats
     np.savez_compressed(FILE, **{key(e): stripped(e, runs) for e, runs in everything.items()})
-    ledger.ledger(results, repeats).to_csv(ledger.RECORD, float_format="%.4g", lineterminator="\n")
+    write(ledger.ledger(results, repeats), ledger.RECORD)
+    write(answers(), findings.RECORD)

@@ -7,12 +7,14 @@ from xml.etree import ElementTree
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
+import pandas as pd
 import pytest
 
 import safe
 from safe.companion.paper import reported
 from safe.experiments.experiment import WEIGHT_COLUMNS
 from safe.results import figures, tables
+from safe.results.statistics import success_interval
 from tests.helpers.results import runs
 
 mpl.use("agg")
@@ -116,6 +118,9 @@ def test_names_are_not_read_as_mathematics_or_markup(name):
     results = {safe.Experiment(algorithm, maze): runs(1, 2, [3], a=[0.5, 0.5], b=[0.5, 0.5])}
     evolved_weights = tables.evolved_table(results, ["a", "b"])
     story_of_it = list(safe.generations(maze, algorithm, 0, safe.Parameters(generations=1, population=4)))
+    levels = pd.DataFrame({"panel": [name], "level": [name], "colour": [name], "successes": [1], "runs": [2]})
+    rates = levels.assign(rate=0.5, low=0.1, high=0.9)
+    windows = pd.DataFrame({"run": [0, 0], "window": [0, 1], "novelty": [1.0, 2.0]})
     drawn = [
         figures.plot_mazes([maze]),
         figures.plot_sensors(maze, maze.start),
@@ -124,6 +129,11 @@ def test_names_are_not_read_as_mathematics_or_markup(name):
         figures.plot_coefficients(results),
         figures.plot_weights(evolved_weights),
         figures.plot_judging({name: story_of_it[0]}),
+        figures.plot_rates(rates, "panel", "level", "colour"),
+        figures.plot_levels(rates, "panel", "level", "colour"),
+        figures.plot_main_effects(levels, ["level"], "colour"),
+        figures.plot_interactions(levels, [("level", "colour")]),
+        figures.plot_windows({name: windows}, {"novelty": ["novelty"]}),
     ]
     for figure, _ in drawn:
         with plt.rc_context({"svg.fonttype": "none"}), io.StringIO() as file:
@@ -132,8 +142,8 @@ def test_names_are_not_read_as_mathematics_or_markup(name):
         texts = [text.strip() for text in svg.itertext()]
         assert any(text.startswith(name) for text in texts), texts
         assert not any(element.tag.endswith("script") for element in svg.iter())
-    (legend,) = drawn[3][0].legends
-    assert len(legend.get_texts()) == 1
+    for figure, _ in (drawn[3], *drawn[7:10], drawn[11]):
+        assert len(legend(figure)) == 1
     assert "<script>alert" not in figures.animate(maze, story_of_it)
 
 
@@ -196,6 +206,173 @@ def test_who_judges_whom():
     assert "The objective function\nstays as it is." in [text.get_text() for text in standard.texts]
     novelties = {f"{novelty:.3f}" for novelty in judged["safe"].objective_fitness}
     assert novelties <= {text.get_text() for text in coevolving.texts}
+
+
+def rates_of(rows):
+    """Rates of success, in percent, by panel, place and colour; intervals reach from 10 points below to 20 above."""
+    table = pd.DataFrame(rows, columns=["panel", "place", "colour", "percent"])
+    return table.assign(rate=table.percent / 100, low=table.percent / 100 - 0.1, high=table.percent / 100 + 0.2)
+
+
+RATES = rates_of(
+    [
+        ("one", "here", "red", 10),
+        ("one", "here", "blue", 20),
+        ("one", "there", "blue", 30),
+        ("two", "there", "red", 40),
+        ("two", "here", "red", 50),
+        ("three", "far", "blue", 60),
+    ]
+)
+
+
+def intervals(axes, along):
+    """The points of a panel by label, and the ends of their intervals along an axis: 0, horizontal, or 1."""
+    drawn = {}
+    for container in axes.containers:
+        points, _, (bars,) = container
+        drawn[container.get_label()] = points.get_xydata().tolist()
+        for point, ends in zip(points.get_xydata(), bars.get_segments(), strict=True):
+            assert ends[:, 1 - along].tolist() == [point[1 - along]] * 2
+            assert ends[:, along] == pytest.approx([point[along] - 10, point[along] + 20])
+    return {label: points for label, points in drawn.items() if points}
+
+
+def has_numbers(axes):
+    """Are there labels at the ticks of the horizontal axis?"""
+    return any(label.get_visible() and label.get_text() for label in axes.get_xticklabels())
+
+
+def legend(figure):
+    return [text.get_text() for text in figure.legends[0].get_texts()]
+
+
+def assert_lowest_panels_are_labelled(grid, label):
+    """Of three panels in two columns the second and the third have nothing below them."""
+    grid[0, 0].figure.canvas.draw()
+    assert [axes.get_xlabel() for axes in grid.flat] == ["", label, label, ""]
+    assert [has_numbers(axes) for axes in grid.flat[:3]] == [False, True, True]
+    assert [axes.axison for axes in grid.flat] == [True, True, True, False]
+
+
+def test_rates_stand_beside_each_other():
+    figure, grid = figures.plot_rates(RATES, "panel", "place", "colour")
+    assert grid.shape == (2, 2)
+    assert [axes.get_title() for axes in grid.flat] == ["one", "two", "three", ""]
+    above, below = -0.15, 0.15  # of the line of a place: one colour, and the other
+    drawn = [intervals(axes, 0) for axes in grid.flat]
+    assert drawn[0]["red"] == [[10, above]]
+    assert drawn[0]["blue"] == pytest.approx(np.array([[20, below], [30, 1 + below]]))
+    assert drawn[1]["red"] == pytest.approx(np.array([[40, 1 + above], [50, above]]))
+    assert drawn[2]["blue"] == pytest.approx(np.array([[60, 2 + below]]))
+    assert [[*of_panel] for of_panel in drawn] == [["red", "blue"], ["red"], ["blue"], []]
+    for axes in grid[:, 0]:
+        assert axes.get_yticks().tolist() == [0, 1, 2]
+        assert [label.get_text() for label in axes.get_yticklabels()] == ["here", "there", "far"]
+        assert axes.yaxis_inverted()
+    assert legend(figure) == ["red", "blue"]
+    assert_lowest_panels_are_labelled(grid, "runs that succeed, %")
+
+
+def test_rates_along_numbers_are_in_their_order():
+    places = {"here": 1000, "there": 100, "far": 10_000}
+    rates = RATES.assign(place=RATES.place.map(places))
+    figure, grid = figures.plot_levels(rates, "panel", "place", "colour", xlabel="places")
+    assert [axes.get_title() for axes in grid.flat] == ["one", "two", "three", ""]
+    drawn = [intervals(axes, 1) for axes in grid.flat]
+    assert drawn == [
+        {"red": [[1, 10]], "blue": [[0, 30], [1, 20]]},
+        {"red": [[0, 40], [1, 50]]},
+        {"blue": [[2, 60]]},
+        {},
+    ]
+    for axes in (grid[0, 1], grid[1, 0]):
+        assert axes.get_xticks().tolist() == [0, 1, 2]
+        assert [label.get_text() for label in axes.get_xticklabels()] == ["100", "1,000", "10,000"]
+    assert [axes.get_ylabel() for axes in grid.flat] == ["runs that succeed, %", "", "runs that succeed, %", ""]
+    assert legend(figure) == ["red", "blue"]
+    assert_lowest_panels_are_labelled(grid, "places")
+
+
+def test_rates_along_words_are_in_the_order_of_the_table():
+    _, grid = figures.plot_levels(RATES, "panel", "place", "colour", columns=3)
+    assert grid.shape == (1, 3)
+    assert intervals(grid[0, 1], 1) == {"red": [[0, 50], [1, 40]]}
+    assert [label.get_text() for label in grid[0, 2].get_xticklabels()] == ["here", "there", "far"]
+    assert [axes.get_xlabel() for axes in grid[0]] == ["place"] * 3
+
+
+def test_a_factor_of_one_colour_has_one_line_of_points_for_each_place():
+    _, ((axes,),) = figures.plot_rates(RATES[RATES.panel == "two"].replace("two", "$1$"), "panel", "place", "colour", 1)
+    assert intervals(axes, 0) == {"red": [[40, 0], [50, 1]]}
+
+
+def traces(*values):
+    """Measures of runs, each from generation 0, 10 and 100 on, if it lasts as long."""
+    return pd.concat(
+        [
+            pd.DataFrame(
+                {"run": run, "window": [0, 10, 100][: len(of_run)], "high": of_run, "low": 0.0, "none": np.nan}
+            )
+            for run, of_run in enumerate(values)
+        ]
+    )
+
+
+def test_windows_show_medians_and_the_middle_half():
+    of_runs = {"mine": traces([1, 1, 9], [2, 4], [3, 9], [4, 10], [9, 11]), "yours": traces([5, 5])}
+    panels = {"both": ["high", "low"], "one": ["low"], "nothing": ["none"]}
+    figure, grid = figures.plot_windows(of_runs, panels)
+    high, low, other, other_low = grid[0, 0].get_lines()
+    assert high.get_xydata().tolist() == [[1, 3], [11, 9], [101, 9]], "generation 0 stands at 1 on a logarithmic axis"
+    assert low.get_xydata().tolist() == [[1, 0], [11, 0], [101, 0]]
+    assert other.get_xydata().tolist() == [[1, 5], [11, 5]]
+    assert [line.get_linestyle() for line in (high, low, other, other_low)] == ["-", "--", "-", "--"]
+    assert high.get_color() == low.get_color() != other.get_color() == other_low.get_color()
+    middle_half, *_ = grid[0, 0].collections
+    outline = {tuple(corner) for corner in middle_half.get_paths()[0].vertices.tolist()}
+    assert outline == {(1, 2), (1, 4), (11, 4), (11, 10), (101, 9)}
+    assert [len(axes.get_lines()) for axes in grid.flat] == [4, 2, 2, 0]
+    assert [axes.get_ylabel() for axes in grid.flat] == [*panels, ""]
+    assert legend(figure) == ["mine", "yours"]
+    for axes in (grid[0, 1], grid[1, 0]):
+        assert axes.get_xscale() == "log"
+        assert axes.get_xticks().tolist() == [1, 2, 4, 11, 31, 101]
+        assert [label.get_text() for label in axes.get_xticklabels()] == ["0", "1", "3", "10", "30", "100"]
+    assert_lowest_panels_are_labelled(grid, "generation")
+
+
+def rates_of_factors():
+    rows = [("EA", 15, "none", 2), ("SAFE", 50, "none", 6), ("SAFE", 1, "full", 0), ("SAFE", 50, "full", 10)]
+    return pd.DataFrame(rows, columns=["algorithm", "k", "archive", "successes"]).assign(runs=10)
+
+
+def test_main_effects_take_the_cells_of_a_level_together():
+    figure, (of_k, of_archive) = figures.plot_main_effects(rates_of_factors(), ["k", "archive"], "algorithm")
+    drawn = [
+        {container.get_label(): container[0].get_xydata().tolist() for container in axes.containers}
+        for axes in (of_k, of_archive)
+    ]
+    assert drawn == [{"EA": [[1, 20]], "SAFE": [[0, 0], [2, 80]]}, {"EA": [[0, 20]], "SAFE": [[0, 60], [1, 50]]}]
+    *_, (bars,) = of_archive.containers[1]
+    ends = [segment[:, 1] for segment in bars.get_segments()]
+    expected = [100 * np.array(success_interval(count, n)) for count, n in ((6, 10), (10, 20))]
+    assert np.array(ends) == pytest.approx(np.array(expected))
+    assert [label.get_text() for label in of_k.get_xticklabels()] == ["1", "15", "50"]
+    assert [axes.get_title() for axes in (of_k, of_archive)] == ["k", "archive"]
+    assert legend(figure) == ["EA", "SAFE"]
+
+
+def test_interactions_are_rates_of_pairs_of_levels():
+    _, (axes,) = figures.plot_interactions(rates_of_factors(), [("k", "archive")])
+    (image,) = axes.get_images()
+    expected = [[np.nan, 20, 60], [0, np.nan, 100]]  # down: none, full; across: 1, 15, 50
+    assert np.ma.filled(image.get_array(), np.nan) == pytest.approx(np.array(expected), nan_ok=True)
+    texts = {text.get_position(): text.get_text() for text in axes.texts if text.get_text()}
+    assert texts == {(1, 0): "20 %", (2, 0): "60 %", (0, 1): "0 %", (2, 1): "100 %"}
+    assert [label.get_text() for label in axes.get_xticklabels()] == ["1", "15", "50"]
+    assert [label.get_text() for label in axes.get_yticklabels()] == ["none", "full"]
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("k", "archive")
 
 
 def test_matplotlib_knows_the_style():

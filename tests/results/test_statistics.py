@@ -1,5 +1,6 @@
 """Statistics compared with published worked examples, and with properties that they must have."""
 
+import itertools
 import math
 
 import numpy as np
@@ -8,6 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
+from statsmodels.formula.api import glm
+from statsmodels.genmod.families import Binomial
 
 from safe.results import statistics
 from tests.helpers.results import runs
@@ -121,3 +124,52 @@ def test_the_log_rank_test_of_a_textbook():
     second = pd.DataFrame({"generation": placebo, "success": True})
     _, p_value = statistics.compare_times(first, second)
     assert p_value == pytest.approx(stats.chi2.sf(16.79, 1), rel=0.01)
+
+
+def factorial_rates(successes, **factors):
+    """A full factorial design of so many successes of 20 runs, cell by cell, the last factor changing fastest."""
+    cells = pd.DataFrame(itertools.product(*factors.values()), columns=[*factors])
+    return cells.assign(successes=successes, runs=20)
+
+
+@pytest.mark.parametrize("successes", [[2, 9, 15], [0, 9, 20], [0, 0, 3], [7, 7, 7]])
+def test_the_deviance_of_a_single_factor_is_that_of_the_g_test(successes):
+    table = statistics.analysis_of_deviance(factorial_rates(successes, k=[1, 15, 50]), ["k"])
+    counts = np.array([successes, [20 - count for count in successes]])
+    g_test = stats.chi2_contingency(counts, correction=False, lambda_="log-likelihood")
+    assert table.index.tolist() == ["k"]
+    assert table.loc["k"].tolist() == pytest.approx(
+        [g_test.statistic, 2, g_test.pvalue, (max(successes) - min(successes)) / 20], abs=1e-3
+    )
+
+
+def test_deviances_are_those_of_nested_logistic_models():
+    rates = factorial_rates([2, 5, 9, 7, 12, 18, 4, 8, 3, 13, 15, 11], k=[1, 15], size=[2, 5, 20], archive=["a", "b"])
+    table = statistics.analysis_of_deviance(rates, ["k", "size", "archive"])
+
+    def deviance(formula):
+        outcomes = "successes + I(runs - successes)"
+        return glm(f"{outcomes} ~ {formula}", rates.astype({"k": str, "size": str}), family=Binomial()).fit().deviance
+
+    main = deviance("k + size + archive")
+    expected = {
+        "k": (deviance("size + archive") - main, 1),
+        "size": (deviance("k + archive") - main, 2),
+        "archive": (deviance("k + size") - main, 1),
+        "k x size": (main - deviance("k * size + archive"), 2),
+        "k x archive": (main - deviance("k * archive + size"), 1),
+        "size x archive": (main - deviance("size * archive + k"), 2),
+    }
+    assert table.index.tolist() == [*expected]
+    for name, (gained, df) in expected.items():
+        row = table.loc[name]
+        assert (row.deviance, row.df) == (pytest.approx(gained, abs=1e-3), df)
+        assert row.p_value == pytest.approx(stats.chi2.sf(gained, df), abs=1e-3)
+    assert table.span["k"] == pytest.approx((54 - 53) / 120)
+    assert table.span[["k x size", "k x archive", "size x archive"]].isna().all()
+
+
+def test_combinations_that_a_design_lacks_have_no_degree_of_freedom():
+    rates = factorial_rates([2, 5, 9, 7, 12, 18], k=[1, 15, 50], archive=["a", "b"])[:-1]
+    table = statistics.analysis_of_deviance(rates, ["k", "archive"])
+    assert table.df.tolist() == [2, 1, 1]

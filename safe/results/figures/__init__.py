@@ -4,7 +4,7 @@ Functions named `plot_...` return the figure and its axes: a single one, or an a
 or, if there are several rows of them, row by row. `results` and `paper` are those of `safe.results.tables`.
 """
 
-from safe.results.figures.grids import plot_levels, plot_rates, plot_windows
+from safe.results.figures.grids import plot_interactions, plot_levels, plot_main_effects, plot_rates, plot_windows
 from safe.results.figures.mazes import (
     draw_maze,
     draw_path,
@@ -24,8 +24,10 @@ __all__ = [
     "draw_path",
     "plot_coefficients",
     "plot_generation",
+    "plot_interactions",
     "plot_judging",
     "plot_levels",
+    "plot_main_effects",
     "plot_mazes",
     "plot_neighbours",
     "plot_paths",
