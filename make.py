@@ -93,7 +93,7 @@ def fuzz():
 
 
 def evidence():
-    """what is recorded beyond the paper, made anew"""
+    """make again what is recorded beyond the paper"""
     env()
     _run("python", "-m", "safe.companion.evidence")
 
