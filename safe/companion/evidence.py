@@ -35,7 +35,7 @@ import pandas as pd
 
 from safe import checks
 from safe.algorithms import COEFFICIENTS
-from safe.companion import designs, notebook
+from safe.companion import designs
 from safe.companion.designs import Recorded
 from safe.evolution import RULES, evolve
 from safe.experiments.cores import available_cores
@@ -451,6 +451,8 @@ def main() -> None:
     parser.add_argument("--cores", type=int, default=0, help="how many cores of this machine; by default all")
     parser.add_argument("--scheduler", default="", help="the address of a Dask scheduler whose workers make the runs")
     options = parser.parse_args()
+    from safe.companion import notebook  # it imports matplotlib, which a build of the book must not do yet
+
     try:
         make(**notebook.resources(options.store, options.scheduler, options.cores))
     except ValueError as error:

@@ -107,12 +107,12 @@ def summary(table: pd.DataFrame) -> pd.DataFrame:
     return counts.rename_axis(index="claims", columns=None)
 
 
-def recorded(record: Path = RECORD) -> pd.DataFrame:
+def recorded(record: Path | None = None) -> pd.DataFrame:
     """A ledger as a person last examined and recorded it: of 500 runs of each of the paper's experiments, seed 0."""
-    return pd.read_csv(record, index_col="claim", keep_default_na=False, na_values=[""])
+    return pd.read_csv(record or RECORD, index_col="claim", keep_default_na=False, na_values=[""])
 
 
-def changed(table: pd.DataFrame, record: Path = RECORD) -> list[str]:
+def changed(table: pd.DataFrame, record: Path | None = None) -> list[str]:
     """A line for each claim with the recorded evidence and another verdict."""
     record = recorded(record).reindex(table.index)
     other = (table.evidence == record.evidence) & (table.verdict != record.verdict)

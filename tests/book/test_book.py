@@ -98,7 +98,8 @@ def test_every_table_that_was_computed_is_shown_with_number_and_caption_and_can_
             number, caption = re.fullmatch(r"Table ([0-9.]+) (.*)", table["caption"]).groups()
             assert caption.replace("’", "'") == settings["caption"], number
             columns = len(expected[0])  # one more may hold links (see test_links.py)
-            assert [[cell.strip() for cell in row[:columns]] for row in table["rows"]] == expected, settings["name"]
+            rows = [[cell.strip().replace("’", "'") for cell in row[:columns]] for row in table["rows"]]
+            assert rows == expected, settings["name"]
             (link,) = re.findall(rf'href="../(_downloads/[^"]*/{settings["name"]}.csv)"', page)
             assert list(csv.reader((html / link).read_text().splitlines())) == expected
             count += 1
@@ -110,6 +111,12 @@ def test_every_table_has_a_number_and_a_caption(pages):
         if name.startswith(("book/", "notebooks/")):
             for table in Tables(page).found:
                 assert re.match(r"Table [0-9.]+ \w", table["caption"]), (name, table)
+
+
+def test_no_page_names_a_folder_of_the_machine_that_built_it(checkout, pages):
+    """Regression: the reference showed the default of a parameter, a path."""
+    folders = str(checkout), str(Path(safe.__file__).parents[1])
+    assert [name for name, page in pages.items() if any(folder in page for folder in folders)] == []
 
 
 def test_numbers_in_prose_are_those_of_the_table(checkout, pages):
@@ -373,7 +380,7 @@ def test_a_stale_copy_stops_the_build(checkout):
             RUNS,
             "parameter must be one of cores, maze, runs, scheduler, seed, store; got run",
         ),
-        (["table3"], RUNS, "notebook must be one of coefficients, .*; got 'table3'"),
+        (["table3"], RUNS, "notebook must be one of archive-costs, .*; got 'table3'"),
         ([], "many", "RUNS must be an integer of at least 1; got 'many'"),
         ([], "0", "RUNS must be an integer of at least 1; got '0'"),
     ],

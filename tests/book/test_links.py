@@ -10,6 +10,9 @@ from urllib.parse import urljoin
 
 import pytest
 
+from safe.companion import evidence
+from safe.companion.designs import everything
+from safe.companion.questions import all_questions
 from tests.helpers.addresses import run_at, values_of
 from tests.helpers.checkout import RUNS, build, output_of
 
@@ -33,19 +36,32 @@ ABOUT_RUNS = {
     "tab-unevolved",
     "tab-unevolved-coefficients",
 }
+ABOUT_RECORDED_RUNS = {"tab-archives", "tab-mutualism", "tab-selects", "tab-settings"}
+ABOUT_SCENES = {"tab-archives-watch", "tab-mutualism-watch", "tab-selects-watch"}
 ABOUT_ROBOTS = {"tab-mazes", "tab-mean-controller"}
 ABOUT_NEITHER = {
+    "tab-archives-answers",
+    "tab-archives-inside",
+    "tab-beyond",
+    *(f"tab-beyond-{name}" for name in all_questions()),
     "tab-budget",
     "tab-cost",
+    "tab-effects",
+    "tab-effects-answers",
+    "tab-elites",
     "tab-first-use",
     "tab-ledger-untestable",
     "tab-machine",
     "tab-missed",
+    "tab-mutualism-answers",
     "tab-novelty",
     "tab-parameters",
     "tab-parts",
     "tab-peers",
+    "tab-places-answers",
     "tab-playground",
+    "tab-selects-answers",
+    "tab-selects-inside",
     "tab-sensors",
     "tab-verdicts",
 }
@@ -81,7 +97,7 @@ def addresses_of(links):
 
 
 def test_every_table_is_about_runs_or_robots_or_neither(linked):
-    assert set(linked) == ABOUT_RUNS | ABOUT_ROBOTS | ABOUT_NEITHER
+    assert set(linked) == ABOUT_RUNS | ABOUT_RECORDED_RUNS | ABOUT_SCENES | ABOUT_ROBOTS | ABOUT_NEITHER
 
 
 @pytest.mark.parametrize("name", sorted(ABOUT_RUNS | ABOUT_ROBOTS))
@@ -140,6 +156,30 @@ def test_a_link_leads_to_the_run_in_the_results(checkout, linked):
             assert (made.success, made.generation, made.distance) == (bool(success), generation, distance), address
             assert list(made.controller) == json.loads(controller)
             assert made.evaluations == evaluations
+
+
+@pytest.mark.parametrize("name", sorted(ABOUT_RECORDED_RUNS))
+def test_a_row_about_recorded_runs_leads_to_them(checkout, linked, name):
+    experiments = {recorded.experiment.digest: recorded.experiment for recorded in everything()}
+    addresses = [addresses_of(links) for _, links in linked[name]]
+    assert all(addresses)
+    for address in [addresses[0][0], addresses[len(addresses) // 2][0], addresses[-1][-1]]:
+        entropy, number = values_of(address)["seed"].split("/")
+        experiment = experiments[entropy.removeprefix("0x")]
+        recorded = evidence.runs([experiment])[experiment].loc[int(number)]
+        made = run_at(address)
+        assert (made.success, made.generation, made.distance) == (
+            recorded.success,
+            recorded.generation,
+            recorded.distance,
+        )
+
+
+@pytest.mark.parametrize("name", sorted(ABOUT_SCENES))
+def test_every_scene_leads_to_a_run_to_watch(linked, name):
+    for _, links in linked[name]:
+        ((_, link),) = links
+        assert re.match(r"\.\./book/playground\.html#view=watch&maze=\w+&algorithm=[^&]+&", link), link
 
 
 def test_a_row_leads_to_the_first_run_that_succeeded_or_else_to_run_0(checkout, linked):
