@@ -270,7 +270,6 @@ def readable_ledger(table: pd.DataFrame, name: str) -> pd.DataFrame:
         "p (Holm)": part.p_adjusted.map(formats.p_value),
         "p (equivalence)": part.p_equivalence.map(formats.p_value),
         "explored": part.explored,
-        "runs": part.evidence,
     }
     return pd.DataFrame(words).rename_axis("question")
 

@@ -247,7 +247,6 @@ def test_answers_with_all_numbers(table):
         "< 0.001",
         "1.00",
         "6 of 10 against 2 of 10",
-        "200 runs against 200 runs, seed 200",
     ]
 
 
