@@ -10,7 +10,7 @@ one run.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -81,6 +81,7 @@ class Design:
 
     factors: tuple[str, ...]
     cells: Mapping[tuple[Level, ...], Experiment]
+    traced: Sequence[Experiment] = ()  # those of the cells inside whose runs the mechanism is looked into
 
 
 @dataclass(frozen=True)
@@ -111,23 +112,13 @@ def everything() -> list[Recorded]:
     """All that is recorded, in the order of the record, each experiment once."""
     mazes, found = load_mazes(list(MAZES)), {}
     for design, (seed, runs) in product((selection, archives, mutualism, capacities, factorial, sizes), RUNS.items()):
-        for key, experiment in design(mazes, runs, seed).cells.items():
-            traced = TRACED if seed == DECIDING and is_traced(design.__name__, key) else 0
+        made = design(mazes, runs, seed)
+        for experiment in made.cells.values():
+            traced = TRACED if seed == DECIDING and experiment in made.traced else 0
             known = found.get(experiment.digest, Recorded(experiment))  # it may be in an earlier design
             most = max(known.experiment, experiment, key=lambda cell: cell.runs)
             found[experiment.digest] = Recorded(most, max(traced, known.traced))
     return list(found.values())
-
-
-def is_traced(design: str, key: tuple[Level, ...]) -> bool:
-    """Is the mechanism looked into in this cell of the design of this name?"""
-    match design:
-        case "selection":
-            return key[1] != "no archive, mutation alone"
-        case "archives":
-            return key[1] == "novelty search"
-        case _:
-            return design == "mutualism"
 
 
 # Designs
@@ -145,7 +136,10 @@ def selection(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
             for (weighed, judge), fields in judges.items():
                 yield (maze, condition, weighed, judge), fields, rules, condition
 
-    return _design(("maze", "condition", "weighed", "judge"), mazes, cells(), runs, seed)
+    def is_traced(condition: str, *_: Level) -> bool:
+        return condition != "no archive, mutation alone"
+
+    return _design(("maze", "condition", "weighed", "judge"), mazes, cells(), runs, seed, is_traced)
 
 
 def archives(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
@@ -154,7 +148,11 @@ def archives(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
         ((maze, search, archive), fields, rules, "archives")
         for maze, (search, fields), (archive, rules) in product(mazes, SEARCHES.items(), ARCHIVES.items())
     )
-    return _design(("maze", "algorithm", "archive"), mazes, cells, runs, seed)
+
+    def is_traced(search: str, *_: Level) -> bool:
+        return search == "novelty search"
+
+    return _design(("maze", "algorithm", "archive"), mazes, cells, runs, seed, is_traced)
 
 
 def capacities(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
@@ -207,11 +205,21 @@ def mutualism(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
                 fields, kind = {"rating": rule, "scaling": scaling}, condition if weighed == "raw" else "mutualism"
                 yield (maze, condition, weighed, rating), fields, CONDITIONS[condition], kind
 
-    return _design(("maze", "condition", "weighed", "rating"), mazes, cells(), runs, seed)
+    return _design(("maze", "condition", "weighed", "rating"), mazes, cells(), runs, seed, lambda *_: True)
 
 
-def _design(factors: tuple[str, ...], mazes: Sequence[Maze], cells: Iterable[tuple], runs: int, seed: int) -> Design:
-    """A design from its cells: levels of the factors, fields of the algorithm, parameters, and a key of SHARES."""
+def _design(
+    factors: tuple[str, ...],
+    mazes: Sequence[Maze],
+    cells: Iterable[tuple],
+    runs: int,
+    seed: int,
+    is_traced: Callable[..., bool] = lambda *_: False,
+) -> Design:
+    """A design from its cells: levels of the factors, fields of the algorithm, parameters, and a key of SHARES.
+
+    `is_traced` says of the levels behind the maze whether the mechanism is looked into.
+    """
     runs = checks.integer("runs", runs, 1, checks.MOST)
     labels = dict(zip(mazes, maze_labels(mazes), strict=True))  # two mazes may have one name
     experiments = {}
@@ -220,4 +228,4 @@ def _design(factors: tuple[str, ...], mazes: Sequence[Maze], cells: Iterable[tup
         algorithm = Algorithm(dict(zip(factors[1:], levels, strict=True))[named_after], **fields)
         share = max(1, round(runs * SHARES.get(kind, 1)))
         experiments[(labels[maze], *levels)] = Experiment(algorithm, maze, share, seed, Parameters(**rules))
-    return Design(factors, experiments)
+    return Design(factors, experiments, [e for (_, *levels), e in experiments.items() if is_traced(*levels)])

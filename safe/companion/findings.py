@@ -132,12 +132,12 @@ def readable_rates(
     seen = {key: formats.count(*_counted_successes(explored[1], e)) for key, e in explored[0].cells.items()}
     rows: dict[tuple[Level, ...], dict[str, str]] = {}
     behind: dict[tuple[Level, ...], list[Experiment]] = {}
-    for key, experiment in design.cells.items():
+    for (key, experiment), found in zip(design.cells.items(), rates(design, results).itertuples(), strict=True):
         maze, *levels = key
-        count, n = _counted_successes(results, experiment)
-        low, high = success_interval(count, n)
         row = rows.setdefault(tuple(levels), {})
-        row[f"{maze}"] = f"{formats.count(count, n)} ({100 * low:.0f} to {100 * high:.0f} %)"
+        row[f"{maze}"] = (
+            f"{formats.count(found.successes, found.runs)} ({100 * found.low:.0f} to {100 * found.high:.0f} %)"
+        )
         row[f"{maze}, explored"] = seen.get(key, formats.DASH)
         behind.setdefault(tuple(levels), []).append(experiment)
     index = pd.MultiIndex.from_tuples(rows, names=design.factors[1:])
