@@ -66,7 +66,10 @@ PLACES = {
     "random": (1000, 10_000),
     "threshold": (1000, 10_000),
 }
-K = {"novelty search": (1, 5, 15, 50, 200), "SAFE": (1, 5, 15, 50)}  # with 200, a run of SAFE takes ten times as long
+K = {
+    "novelty search": (1, 5, 15, 50, 200),
+    "SAFE": (1, 5, 15, 50),
+}  # with 200, a generation of SAFE takes 7 times as long
 TOURNAMENTS = (2, 5, 20)
 POPULATIONS = (50, 100, 200, 500, 1000)
 ELITES = (0, 2, 20)

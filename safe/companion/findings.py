@@ -219,7 +219,7 @@ def answers(
     Returns
     -------
     pandas.DataFrame, one row for each question, indexed by it
-        The columns of `safe.companion.ledger.ledger`, maze, and explored: what had been seen when it was asked.
+        The columns of `safe.companion.ledger.ledger`, maze, and explored: the same of the runs of the exploration.
         Questions on cells of which there is nothing, such as those of another maze, are left out.
     """
     rows = []
