@@ -1,6 +1,7 @@
 """Every page in a browser. Skipped without Chromium."""
 
 import re
+import time
 from pathlib import Path
 from urllib.parse import unquote, urljoin, urlparse
 
@@ -15,6 +16,7 @@ def names(html):
 
 
 TABS = 8  # pages that load side by side
+QUIET = 0.5  # seconds without a request, after which pages have loaded all they want
 
 
 @needs_browser
@@ -26,15 +28,21 @@ def test_every_page_without_an_error_a_request_elsewhere_or_a_scroll_bar(site, b
     context = browser.new_context(viewport=viewport)
     tabs = [context.new_page() for _ in range(TABS)]
     complaints = [complaints_of(tab, (site, f"blob:{site}", "data:")) for tab in tabs]
+    began = []  # when the requests began
+    context.on("request", lambda _: began.append(time.monotonic()))
     for first in range(0, len(names), TABS):
         opened = list(zip(tabs, complaints, names[first : first + TABS], strict=False))
         for tab, _, name in opened:
             tab.emulate_media(color_scheme=schemes[0])
-            # index.html leads to another page, for which only it must wait
-            tab.goto(urljoin(site, name), wait_until="networkidle" if name == "index.html" else "commit")
+            tab.goto(urljoin(site, name), wait_until="commit")
+            if name == "index.html":
+                tab.wait_for_url(lambda address: address != urljoin(site, "index.html"))  # it leads to another page
+        for tab, _, _ in opened:
+            tab.wait_for_load_state("load")
+        if viewport == DESKTOP:  # once for each page, wait until it asks for nothing more
+            while time.monotonic() < began[-1] + QUIET:
+                tabs[0].wait_for_timeout(100)
         for tab, complaints_of_tab, name in opened:
-            # once for each page, wait until it loads nothing more
-            tab.wait_for_load_state("networkidle" if viewport == DESKTOP else "load")
             for scheme in schemes:
                 tab.emulate_media(color_scheme=scheme)
                 wider = tab.evaluate("document.documentElement.scrollWidth - window.innerWidth")
