@@ -142,14 +142,15 @@ def place_of(judges: Judges, j: int) -> tuple[int, int]:
 @kernel
 def favourite(judges: Judges, j: int, n: int) -> int:
     """Of the first n solutions, the one that the j-th objective function scores highest, the first on a tie."""
-    found, best = -1, -np.inf
+    found = 0
     if j < judges.first_goal:
-        for i in range(n):
-            score = score_one(judges, j, i)
-            if score > best:
-                found, best = i, score
+        scores = np.empty(n)
+        score_all(judges, j, scores)
+        for i in range(1, n):
+            if scores[i] > scores[found]:
+                found = i
         return found
-    endpoints, (row, column) = judges.endpoints, place_of(judges, j)
+    endpoints, (row, column) = judges.endpoints, place_of(judges, j)  # whole numbers: the repertoire may be large
     least = np.iinfo(np.int64).max
     for i in range(n):
         distance = abs(endpoints[i, 0] - row) + abs(endpoints[i, 1] - column)

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from safe.kernel import kernel
+from safe.kernel import index, kernel
 
 
 class Paths(NamedTuple):
@@ -24,7 +24,8 @@ class Paths(NamedTuple):
     cells: np.ndarray  # int32, (robots, most cells of a path): row * width + column
     lengths: np.ndarray  # int64, (robots,): the number of cells
     found: np.ndarray  # int64, (robots,)
-    visits: np.ndarray  # int64, (height * width,)
+    visits: np.ndarray  # int32, (height * width,)
+    worth: np.ndarray  # float64, (height * width,): 1 / sqrt(visits)
 
 
 def empty_paths(robots: int, shape: tuple[int, int], steps: int) -> Paths:
@@ -34,7 +35,8 @@ def empty_paths(robots: int, shape: tuple[int, int], steps: int) -> Paths:
         cells=np.zeros((robots, min(steps, size) + 1), dtype=np.int32),
         lengths=np.zeros(robots, dtype=np.int64),
         found=np.zeros(robots, dtype=np.int64),
-        visits=np.zeros(size if robots > 0 else 0, dtype=np.int64),
+        visits=np.zeros(size if robots > 0 else 0, dtype=np.int32),
+        worth=np.zeros(size if robots > 0 else 0),
     )
 
 
@@ -44,7 +46,7 @@ def empty_paths(robots: int, shape: tuple[int, int], steps: int) -> Paths:
 @kernel
 def keep_path(paths: Paths, i: int, trail: np.ndarray, length: int, width: int) -> None:
     """Count the path of the i-th robot, the first cells of its trail (see `safe.robot.walk`)."""
-    cells, lengths, found, visits = paths
+    cells, lengths, found, visits, _ = paths
     lengths[i] = length
     found[i] = 0
     for step in range(length):
@@ -57,8 +59,11 @@ def keep_path(paths: Paths, i: int, trail: np.ndarray, length: int, width: int) 
 @kernel
 def score_paths(paths: Paths, rarity: np.ndarray) -> None:
     """The rarity of all paths, after the whole generation has been counted."""
+    cells, lengths, _, visits, worth = paths
+    for cell in range(len(visits)):  # most of them are on several paths
+        worth[cell] = 1 / math.sqrt(visits[cell])
     for i in range(len(rarity)):
         total = 0.0
-        for step in range(paths.lengths[i]):
-            total += 1 / math.sqrt(paths.visits[paths.cells[i, step]])
+        for step in range(lengths[i]):
+            total += worth[index(cells[i, step])]
         rarity[i] = total
