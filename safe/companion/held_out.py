@@ -19,7 +19,7 @@ Then it must pass three tests, which are runs of experiments with seeds for noth
 
 1. None of 60 runs of the standard EA succeeds.
 2. None of 150 runs of random search succeeds.
-3. It is solvable: in at least one of 10 runs some contestant (CONTESTANTS) succeeds, with five times the evaluations.
+3. It is solvable: one of five contestants (CONTESTANTS) succeeds in one of 4 runs with five times the evaluations.
 
 The set is the first 60 that pass, in the order of their numbers. All candidates up to the last of these are recorded in
 the folder `held_out`, in one file of JSON lines for each set: what became of a candidate, and the maze if it passed the
@@ -63,13 +63,20 @@ Contestants = Sequence[tuple[Algorithm, Parameters]]
 
 CERTIFYING, SOLVING = 7100, 7200  # seeds of the experiments of the first two tests, and of the third
 FAILURES = {"standard": 60, "random": 150}  # algorithms that must not succeed, and in how many runs
-CONTESTANTS: Contestants = (
-    (
-        Algorithm("novelty search", objectives=[(0, 1)]),
-        Parameters(admission="random", crossover=0, mutation=1, generations=2500),
-    ),
+_LONGER = Parameters(admission="random", crossover=0, mutation=1, generations=2500)
+_WEIGHING = {"components": ("1 / distance", "novelty", "path rarity"), "scaling": "rank"}
+_FAVOURITES = {"judging": "favourite", "pool": "repertoire"}
+CONTESTANTS: Contestants = tuple(
+    (Algorithm(name, **fields), _LONGER)
+    for name, fields in {
+        "novelty search": {"objectives": [(0, 1)]},
+        "weighing": _WEIGHING | {"judging": "drawn judge"},
+        "goals": _FAVOURITES | {"kind": "goal", "rating": "patience"},
+        "goals and weighing": _FAVOURITES | {"kind": "mixed"} | _WEIGHING,
+        "path rarity": {"components": ("path rarity",), "objectives": [(1,)]},
+    }.items()
 )
-SOLVING_RUNS = 10  # of each contestant at most
+SOLVING_RUNS = 4  # of each contestant at most
 _PORTIONS = (4, 16)  # runs after which it is looked whether one has succeeded
 
 UNPLACED, UNSOLVED, PASSED = "no start and goal", "not solved", "passed"  # outcomes, besides the names in FAILURES
