@@ -34,11 +34,13 @@ from safe.judges import Judges
 from safe.maze import Maze
 from safe.maze_files import load_maze
 from safe.novelty import ADMISSIONS, LOWEST_REPLACED, admit, empty_archive, empty_occupancy, score_cells
-from safe.operators import Breeding, breed, draw_genomes
-from safe.robot import WEIGHTS, walk_all, walk_space
+from safe.operators import Breeding, breed, draw_genomes, empty_offspring
+from safe.repertoire import empty_repertoire
+from safe.robot import WEIGHTS, endpoints
 
 COPIES = ("equal", "latest first")
-_NOBODY = Judges(np.zeros((0, 2)), np.zeros((2, 0)))  # tournaments go by preference
+# tournaments go by preference, among the survivors alone:
+_NOBODY, _NOTHING = Judges(np.empty((0, 2)), np.empty((2, 0))), empty_repertoire((0, 0), WEIGHTS)
 
 
 def nsga2(maze: Maze | str, seed: Seed, parameters: Parameters = Parameters(), copies: str = "equal") -> Run:
@@ -81,16 +83,16 @@ def nsga2(maze: Maze | str, seed: Seed, parameters: Parameters = Parameters(), c
     breeding = Breeding(2, 0, parameters.crossover, parameters.mutation, low=-1.0, high=1.0)
     archive, occupancy = empty_archive(parameters.archive, 2), empty_occupancy(maze.shape)
     threshold = np.array([parameters.threshold, 0.0])
-    space = walk_space(maze.shape, parameters.steps)
 
     genomes, ends, preference = np.empty((0, WEIGHTS)), np.empty((0, 2), dtype=np.int64), np.empty(0)
-    offspring, offspring_ends = np.empty((size, WEIGHTS)), np.empty((size, 2), dtype=np.int64)
+    bred = empty_offspring(size, WEIGHTS)
+    offspring = bred.genomes
     draw_genomes(rng, -1.0, 1.0, offspring)
     distance, controller = np.iinfo(np.int64).max, None
     for generation in range(parameters.generations):
         if generation > 0:
-            breed(genomes, preference, _NOBODY, breeding, rng, offspring)
-        walk_all(maze.arrays, offspring, parameters.steps, space, offspring_ends)
+            breed(genomes, preference, _NOBODY, _NOTHING, breeding, rng, bred)
+        offspring_ends = endpoints(maze, offspring, parameters.steps)
         distances = maze.distance(offspring_ends)
         nearest = int(distances.argmin())
         if distances[nearest] < distance:

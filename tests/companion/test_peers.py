@@ -1,4 +1,4 @@
-"""NSGA-II compared with its definition in plain Python, and with DEAP's."""
+"""NSGA-II compared with its definition in plain Python and with DEAP's; the repertoire with pyribs' grid of elites."""
 
 from dataclasses import replace
 
@@ -7,6 +7,7 @@ import pytest
 from deap import base, tools
 from hypothesis import given
 from hypothesis import strategies as st
+from ribs.archives import GridArchive
 
 import safe
 from safe.companion import peers
@@ -87,7 +88,7 @@ def run_in_python(parameters, copies, rng):
         genomes = [(genomes + offspring)[i] for i in chosen]
         ranks = {key: -place for place, key in enumerate(sorted(set(keys)))}
         if generation + 1 < parameters.generations:
-            offspring = oracle.breed(genomes, [ranks[keys[i]] for i in chosen], parameters, -1, 1, rng)
+            offspring, _ = oracle.breed(genomes, [ranks[keys[i]] for i in chosen], parameters, -1, 1, rng)
     return generation, best
 
 
@@ -151,3 +152,26 @@ def test_the_latest_of_each_cell_come_before_all_copies():
 def test_what_is_wrong_is_said(wrong, message):
     with pytest.raises(ValueError, match=message):
         peers.nsga2(**{"maze": "maze1", "seed": 0} | wrong)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_repertoire_is_pyribs_grid_of_the_latest(seed):
+    """A grid keeps the best solution of each cell: the latest, if the number of its evaluation is the objective."""
+    maze = safe.load_maze("maze2")
+    elites = safe.Algorithm("map-elites", objectives=[], pool="repertoire")
+    parameters = safe.Parameters(generations=30, population=40, objectives=40, crossover=0, success_distance=0)
+    ranges = [(-0.5, cells - 0.5) for cells in maze.shape]
+    grid = GridArchive(solution_dim=16, dims=maze.shape, ranges=ranges)
+    genomes_before = None  # by place in the repertoire
+    for generation in safe.generations(maze, elites, seed, parameters):
+        if genomes_before is not None:  # without crossover, offspring are elites of the grid, but for one gene
+            parents = genomes_before[generation.parents]
+            assert ((generation.genomes != parents).sum(axis=1) <= 1).all()
+        last = 40 * (generation.generation + 1)
+        grid.add(generation.genomes, np.arange(last - 40, last), generation.endpoints)
+        held = dict(zip(map(tuple, grid.data("measures").tolist()), grid.data("solution"), strict=True))
+        genomes, ends = generation.repertoire
+        assert {*map(tuple, ends.tolist())} == held.keys()
+        genomes_before = np.array([held[tuple(cell)] for cell in ends.tolist()])
+        np.testing.assert_array_equal(genomes, genomes_before)
+    assert 40 < len(grid) < 600, "many cells, and many elites that were replaced"
