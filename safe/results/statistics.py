@@ -1,4 +1,4 @@
-"""Two samples compared: rates of success, means, generations to success.
+"""Two samples compared: rates of success, means, generations to success; two algorithms, over many mazes.
 
 Each comparison answers two questions. Is a difference detected: could two samples differ this much by chance, if both
 came from one source? And is equivalence shown: is a difference as large as MARGIN ruled out (two one-sided tests)?
@@ -8,6 +8,10 @@ MARGIN is 0.2 on the scale of standardised effects, which Cohen calls small: a c
 data. For rates the effect is Cohen's h, the difference of arcsines 2 arcsin sqrt(rate); its error hardly depends on the
 rates, unless hardly any run succeeds. 0.2 is 10 percentage points near a rate of one half; around 2 % it reaches from
 0.2 % to 5.7 %. For means the effect is Cohen's d, the difference in standard deviations.
+
+If two algorithms are compared on many mazes, the mazes are the sample: what is found should hold on other mazes of the
+same kind. So each maze counts once, by its rates of success (`compare_pairs`), or has effects that are drawn from a
+distribution (`safe.results.mixed`), and intervals come from drawing mazes again (the bootstrap).
 """
 
 from __future__ import annotations
@@ -19,6 +23,7 @@ from itertools import combinations
 
 import numpy as np
 import pandas as pd
+from numpy.typing import ArrayLike
 from scipy import optimize, special, stats
 from statsmodels.duration.survfunc import SurvfuncRight, survdiff
 from statsmodels.stats.multitest import multipletests
@@ -28,6 +33,7 @@ from statsmodels.stats.proportion import confint_proportions_2indep, proportion_
 CONFIDENCE = 0.95
 ALPHA = 1 - CONFIDENCE  # also the level of all tests
 MARGIN = 0.2  # the smallest effect that matters
+RESAMPLES = 10_000  # of mazes, by the bootstrap
 
 
 @dataclass(frozen=True)
@@ -206,7 +212,100 @@ def _likelihood(rates: pd.DataFrame, terms: Sequence[tuple[str, ...]]) -> tuple[
     return -float(found.fun), int(np.linalg.matrix_rank(design))
 
 
-def success_curve(runs: pd.DataFrame) -> pd.DataFrame:
+@dataclass(frozen=True)
+class PairedComparison:
+    """A first algorithm against a second, by their rates of success on the same mazes."""
+
+    difference: float  # the mean, over mazes, of the first rate less the second
+    low: float  # the lower end of its 95 % interval
+    high: float  # the upper end
+    shift: float  # Hodges and Lehmann's estimate: the median of the means of all two differences
+    shift_low: float
+    shift_high: float
+    p_value: float  # of Wilcoxon's signed-rank test
+    better: int  # mazes on which the first rate is higher
+    worse: int  # mazes on which it is lower; on all others the rates are equal
+
+
+def compare_pairs(rates: ArrayLike, other_rates: ArrayLike) -> PairedComparison:
+    """Two algorithms on the same mazes: Wilcoxon's signed-rank test of their rates, and by how much they differ.
+
+    Mazes on which the rates are equal do not count in the test. Intervals are percentiles of the bootstrap over mazes.
+    If the rates are equal on all mazes, p is 1.
+
+    Parameters
+    ----------
+    rates, other_rates : arrays of float, shape (mazes,)
+        Rates of success, maze by maze.
+
+    Examples
+    --------
+    >>> found = compare_pairs([0.9, 0.5, 0.7, 0.2, 0.6, 1.0], [0.6, 0.4, 0.5, 0.2, 0.2, 0.5])
+    >>> round(found.difference, 3), round(found.shift, 3), round(found.p_value, 4)
+    (0.25, 0.25, 0.0625)
+    >>> found.better, found.worse
+    (5, 0)
+    """
+    # rounded, so that equal differences of rates, such as 0.3 - 0.2 and 0.2 - 0.1, are ties
+    differences = (np.asarray(rates, dtype=float) - np.asarray(other_rates, dtype=float)).round(9)
+    mean, low, high = mean_over_mazes(differences)
+    draws = _draws(len(differences), RESAMPLES // 10)
+    redrawn = np.repeat(np.tile(differences, len(draws)), draws.ravel()).reshape(draws.shape)
+    shift_low, shift_high = _middle(_pseudomedian(redrawn))
+    return PairedComparison(
+        difference=float(mean),
+        low=float(low),
+        high=float(high),
+        shift=float(_pseudomedian(differences)),
+        shift_low=float(shift_low),
+        shift_high=float(shift_high),
+        p_value=float(stats.wilcoxon(differences).pvalue) if differences.any() else 1.0,
+        better=int((differences > 0).sum()),
+        worse=int((differences < 0).sum()),
+    )
+
+
+def _pseudomedian(values: np.ndarray) -> np.ndarray:
+    """The median, along the last axis, of the means of all two values, each with itself included."""
+    one, other = np.triu_indices(values.shape[-1])
+    return np.median(values[..., one] + values[..., other], axis=-1) / 2
+
+
+def mean_over_mazes(values: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The mean over mazes and the ends of its 95 % interval, by the bootstrap over mazes.
+
+    The same mazes are drawn in every call, so the intervals of two algorithms can be compared.
+
+    Parameters
+    ----------
+    values : array of float, shape (mazes, ...)
+
+    Returns
+    -------
+    mean, low, high : arrays of float, shape (...)
+
+    Examples
+    --------
+    >>> [round(float(end), 2) for end in mean_over_mazes([0.0, 0.5, 1.0, 0.5])]
+    [0.5, 0.12, 0.88]
+    """
+    values = np.asarray(values, dtype=float)
+    low, high = _middle(np.tensordot(_draws(len(values), RESAMPLES) / len(values), values, axes=1))
+    return values.mean(axis=0), low, high
+
+
+def _draws(n: int, samples: int) -> np.ndarray:
+    """How many times each of n mazes is drawn, in samples of n with replacement; shape (samples, n)."""
+    return np.random.default_rng(0).multinomial(n, np.full(n, 1 / n), samples)
+
+
+def _middle(estimates: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    """The ends of the middle 95 % of estimates."""
+    low, high = np.quantile(estimates, [ALPHA / 2, 1 - ALPHA / 2], axis=0)
+    return low, high
+
+
+def success_curve(runs: pd.DataFrame, by: str = "generation") -> pd.DataFrame:
     """The share of runs that have succeeded, by generation: one minus the curve of Kaplan and Meier.
 
     Runs that did not succeed are censored: all that is known of them is that they had not by their last generation.
@@ -214,21 +313,43 @@ def success_curve(runs: pd.DataFrame) -> pd.DataFrame:
     Parameters
     ----------
     runs : DataFrame with columns success and generation
+    by : {"generation", "evaluations"}
+        The column that counts how long a run took.
 
     Returns
     -------
     pandas.DataFrame, one row for each generation in which a run succeeded
-        generation; share, low and high: the estimate and the ends of its pointwise 95 % interval, which is symmetric
-        in log(-log(1 - share)) and so stays between 0 and 1.
+        generation, or evaluations; share, low and high: the estimate and the ends of its pointwise 95 % interval, which
+        is symmetric in log(-log(1 - share)) and so stays between 0 and 1.
     """
-    found = SurvfuncRight(runs.generation, runs.success.astype(int))
+    found = SurvfuncRight(runs[by], runs.success.astype(int))
     left, error = np.asarray(found.surv_prob), np.asarray(found.surv_prob_se)
     between = (left > 0) & (left < 1)  # if all runs succeeded, or none did, there is no estimate of the error
     exponent = np.zeros(len(left))
     exponent[between] = stats.norm.isf(ALPHA / 2) * error[between] / (left[between] * np.log(left[between]))
-    curve = {"generation": found.surv_times, "share": 1 - left}
+    curve = {by: found.surv_times, "share": 1 - left}
     curve |= {"low": 1 - left ** np.exp(exponent), "high": 1 - left ** np.exp(-exponent)}
     return pd.DataFrame(curve)[left < 1].reset_index(drop=True)
+
+
+def mean_success_curve(runs: pd.DataFrame) -> pd.DataFrame:
+    """The share of runs that have succeeded, by evaluations, in the mean over mazes, each of which counts once.
+
+    Parameters
+    ----------
+    runs : DataFrame with columns maze, success and evaluations
+
+    Returns
+    -------
+    pandas.DataFrame, one row for each number of evaluations after which a run succeeded
+        evaluations; share, low and high: the mean and the ends of its pointwise 95 % interval, by the bootstrap over
+        mazes.
+    """
+    times = np.unique(runs.evaluations[runs.success])
+    curves = [success_curve(of_maze, "evaluations") for _, of_maze in runs.groupby("maze", sort=False)]
+    shares = [np.append(0, curve.share)[np.searchsorted(curve.evaluations, times, "right")] for curve in curves]
+    share, low, high = mean_over_mazes(shares)
+    return pd.DataFrame({"evaluations": times, "share": share, "low": low, "high": high})
 
 
 def compare_times(runs: pd.DataFrame, other: pd.DataFrame) -> tuple[float, float]:

@@ -104,6 +104,25 @@ def test_a_success_curve_with_failures_censored():
     assert statistics.success_curve(runs(0, 3)).empty
 
 
+def test_a_success_curve_by_evaluations():
+    table = runs(2, 4, [5, 1]).assign(evaluations=lambda of: 100 * (of.generation + 1))
+    found = statistics.success_curve(table, "evaluations")
+    assert found.columns.tolist() == ["evaluations", "share", "low", "high"]
+    assert found.evaluations.tolist() == [200, 600]
+    assert found.share.tolist() == pytest.approx(statistics.success_curve(table).share.tolist())
+
+
+def test_in_a_mean_success_curve_each_maze_counts_once():
+    first = pd.DataFrame({"maze": "a", "success": [True, True], "evaluations": [200, 600]})
+    second = pd.DataFrame({"maze": "b", "success": [True, False, False, False], "evaluations": [400, 900, 900, 900]})
+    found = statistics.mean_success_curve(pd.concat([first, second]))
+    assert found.evaluations.tolist() == [200, 400, 600]
+    assert found.share.tolist() == pytest.approx([(0.5 + 0) / 2, (0.5 + 0.25) / 2, (1 + 0.25) / 2])
+    assert found.low.tolist() == pytest.approx([0, 0.25, 0.25]), "one maze in place of both is drawn often enough"
+    assert found.high.tolist() == pytest.approx([0.5, 0.5, 1])
+    assert statistics.mean_success_curve(second[~second.success]).empty
+
+
 def test_times_are_compared_with_failures_as_the_slowest():
     quick, slow, never = runs(2, 2, [1, 2]), runs(2, 4, [5, 6]), runs(0, 3)
     assert statistics.compare_times(quick, slow)[0] == 1
@@ -173,3 +192,53 @@ def test_combinations_that_a_design_lacks_have_no_degree_of_freedom():
     rates = factorial_rates([2, 5, 9, 7, 12, 18], k=[1, 15, 50], archive=["a", "b"])[:-1]
     table = statistics.analysis_of_deviance(rates, ["k", "archive"])
     assert table.df.tolist() == [2, 1, 1]
+
+
+# Bickel and Doksum (1977), depression scores before and after a tranquilliser, as in the help of R's wilcox.test
+BEFORE = [1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30]
+AFTER = [0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29]
+
+
+def test_the_signed_rank_test_of_a_textbook():
+    found = statistics.compare_pairs(BEFORE, AFTER)
+    assert found.p_value == pytest.approx(0.03906, abs=5e-6)
+    assert found.shift == pytest.approx(0.46, abs=5e-4)
+    assert (found.better, found.worse) == (7, 2)
+    assert found.difference == pytest.approx(np.mean(BEFORE) - np.mean(AFTER))
+
+
+def test_pairs_change_sign_if_they_are_swapped():
+    there, back = statistics.compare_pairs(BEFORE, AFTER), statistics.compare_pairs(AFTER, BEFORE)
+    assert (there.difference, there.low, there.high) == pytest.approx((-back.difference, -back.high, -back.low))
+    assert (there.shift, there.shift_low, there.shift_high) == pytest.approx(
+        (-back.shift, -back.shift_high, -back.shift_low)
+    )
+    assert (there.p_value, there.better, there.worse) == (back.p_value, back.worse, back.better)
+
+
+def test_mazes_without_a_difference_do_not_count_in_the_test():
+    with_ties = statistics.compare_pairs([*BEFORE, 0, 1], [*AFTER, 0, 1])
+    assert with_ties.p_value == pytest.approx(statistics.compare_pairs(BEFORE, AFTER).p_value)
+    # differences of 0.1 are equal, however they are rounded
+    tied = statistics.compare_pairs([0.3, 0.2, 0.0], [0.2, 0.3, 0.1])
+    assert (tied.p_value, tied.shift) == (pytest.approx(stats.wilcoxon([1, -1, -1]).pvalue), pytest.approx(-0.05))
+    same = statistics.compare_pairs([0.5, 0, 1], [0.5, 0, 1])
+    assert (same.p_value, same.difference, same.shift, same.better, same.worse) == (1, 0, 0, 0, 0)
+
+
+def test_intervals_over_mazes_cover_what_holds_for_all_mazes():
+    rng = np.random.default_rng(4)
+    covered = []
+    for _ in range(40):
+        first, second = rng.binomial(20, rng.beta(0.7, 0.7, (2, 40))) / 20
+        mean, low, high = statistics.mean_over_mazes(first)
+        assert mean == pytest.approx(first.mean())
+        found = statistics.compare_pairs(first, second)
+        covered.append((low < 0.5 < high, found.low < 0 < found.high, found.shift_low <= 0 <= found.shift_high))
+    assert (np.mean(covered, axis=0) >= 0.85).all()
+
+
+def test_intervals_over_mazes_are_as_wide_as_the_standard_error_says():
+    shares = np.random.default_rng(5).random((50, 3))
+    _, low, high = statistics.mean_over_mazes(shares)
+    assert high - low == pytest.approx(2 * 1.96 * shares.std(axis=0) / math.sqrt(50), rel=0.05)

@@ -4,6 +4,7 @@ Functions named `plot_...` return the figure and its axes: a single one, or an a
 or, if there are several rows of them, row by row. `results` and `paper` are those of `safe.results.tables`.
 """
 
+from safe.results.figures.contest import plot_ladder, plot_mean_curves, plot_pairs
 from safe.results.figures.grids import plot_interactions, plot_levels, plot_main_effects, plot_rates, plot_windows
 from safe.results.figures.mazes import (
     draw_maze,
@@ -26,10 +27,13 @@ __all__ = [
     "plot_generation",
     "plot_interactions",
     "plot_judging",
+    "plot_ladder",
     "plot_levels",
     "plot_main_effects",
     "plot_mazes",
+    "plot_mean_curves",
     "plot_neighbours",
+    "plot_pairs",
     "plot_paths",
     "plot_progress",
     "plot_rates",
