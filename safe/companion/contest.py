@@ -1,8 +1,8 @@
 """The contest: search algorithms on mazes for which none of them was made; and three kinds of coevolution.
 
-All contestants are compared on the design set, with one seed, to find out what to ask. Then the questions and the rule
-of their decision were written down (`safe.companion.contest_questions`), and the test set was run once, with another
-seed (see `safe.companion.held_out` for the mazes). Each contestant has the paper's operators, and mutation alone.
+All contestants were compared on the design set, with one seed, to find out what to ask. Then the contrasts and the rule
+of their decision were written down, and their contestants ran on the test set, once, with another seed (see
+`safe.companion.held_out` for the mazes). Each contestant has the paper's operators, or mutation alone.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from itertools import combinations, product
 
 from safe.algorithms import Algorithm, Parameters
 from safe.companion import held_out
-from safe.companion.designs import ARCHIVES, DECIDING, EXPLORING, VARIATION, Design, Level
+from safe.companion.designs import ARCHIVES, DECIDING, EXPLORING, VARIATION, Design, Level, Recorded
 from safe.companion.paper import MAZES
 from safe.experiments.experiment import Experiment
 from safe.maze import Maze
@@ -21,10 +21,9 @@ from safe.maze_files import load_mazes
 from safe.results.labels import maze_labels
 
 EXPLORED = 5  # runs of each contestant on each maze of the design set
-RUNS = 50  # on each maze of the test set, of those on which the questions bear
-OTHERS = 5  # of all others
+RUNS = 50  # on each maze of the test set
 CLASS = 500  # runs of each of the three kinds
-TRACED = 1  # run on each maze of the design set, of some contestants, inside which is looked
+TRACED = 20  # of them, inside which the mechanism is observed
 
 # Contestants
 
@@ -115,33 +114,120 @@ def _both() -> Iterator[Contestant]:
         yield Contestant(f"three components and goals {where}, {rated}", "both", fields, RANDOM_ARCHIVE)
 
 
+# Questions
+
+
+@dataclass(frozen=True)
+class Contrast:
+    """Does the first contestant succeed more often than the second, on mazes that none was made for?"""
+
+    question: str  # a key of QUESTIONS
+    first: str
+    second: str
+    operators: str
+
+
+QUESTIONS = {
+    "better than novelty": "Does anything beat the best novelty search with the same operators?",
+    "many judges": "Do many judges beat one fixed sum of the same components?",
+    "coevolution": "Does evolving judges beat frozen, freshly drawn and shuffled ones?",
+}
+LEVELS = {"better than novelty": 0.01, "many judges": 0.05, "coevolution": 0.05}  # of p, after Holm's correction
+# of novelty searches, the best on the design set
+BEST_NOVELTY = {
+    "crossover and mutation": "novelty search, archive random, tournaments of 5",
+    "mutation alone": "novelty search, archive random, tournaments of 20",
+}
+CHALLENGERS = (
+    "three components and goals from the repertoire, redrawn",
+    "three components, drawn judges, frozen",
+)
+FROM_REPERTOIRE = "goals from the repertoire, {}"
+BY_DRAWN_JUDGES = "three components, drawn judges, {}"
+
+
+def contrasts() -> list[Contrast]:
+    """The primary contrasts, to which Holm's correction applies all together.
+
+    A contrast is confirmed if the first contestant's mean rate over the test mazes is the higher one and Wilcoxon's
+    signed-rank test of the paired rates has a p below the level of its question (LEVELS). Mazes on which all runs of
+    all contestants of the contrasts succeed, or none, are left out, whatever the contrast.
+    """
+    found = []
+    for operators, best in BEST_NOVELTY.items():
+        found += [Contrast("better than novelty", one, best, operators) for one in CHALLENGERS]
+        for many in ("three components, drawn judges, frozen", "three components, the best score"):
+            found.append(Contrast("many judges", many, "three components, one fixed sum", operators))
+    for name, evolved, others in (
+        (BY_DRAWN_JUDGES, "bred by genotypic novelty", ("frozen", "redrawn")),
+        (BY_DRAWN_JUDGES, "bred by discovery", ("frozen", "redrawn", "bred by discovery, shuffled")),
+        (FROM_REPERTOIRE, "bred by genotypic novelty", ("frozen", "redrawn")),
+        (FROM_REPERTOIRE, "by patience", ("frozen", "redrawn")),
+    ):
+        for other in others:
+            found.append(Contrast("coevolution", name.format(evolved), name.format(other), "mutation alone"))
+    return found
+
+
 # Designs
 
 
-def contest(mazes: Sequence[Maze], runs: Mapping[str, int], seed: int) -> Design:
-    """The contestants in `runs`, each with so many runs on each maze, with the paper's operators and mutation alone."""
-
-    def cells() -> Iterator[tuple[tuple[Level, ...], Experiment]]:
-        for maze, label in zip(mazes, maze_labels(mazes), strict=True):
-            for one, (operators, rates) in product(contestants(), VARIATION.items()):
-                if one.name in runs:
-                    algorithm, parameters = Algorithm(one.name, **one.fields), Parameters(**one.rules | rates)
-                    experiment = Experiment(algorithm, maze, runs[one.name], seed, parameters)
-                    yield (label, one.name, operators), experiment
-
-    return Design(("maze", "contestant", "operators"), dict(cells()))
+def decided() -> Design:
+    """The contestants of the contrasts, on the test set."""
+    ends = [(name, one.operators) for one in contrasts() for name in (one.first, one.second)]
+    return contest(held_out.test_set(), list(dict.fromkeys(ends)), RUNS, DECIDING)
 
 
 def explored() -> Design:
-    """All contestants on the design set."""
-    return contest(held_out.design_set(), {one.name: EXPLORED for one in contestants()}, EXPLORING)
+    """All contestants, on the design set."""
+    ends = product([one.name for one in contestants()], VARIATION)
+    return contest(held_out.design_set(), list(ends), EXPLORED, EXPLORING)
 
 
-def decided() -> Design:
-    """All contestants on the test set, those of the questions with more runs."""
-    return contest(held_out.test_set(), runs, DECIDING)
+def contest(mazes: Sequence[Maze], ends: Sequence[tuple[str, str]], runs: int, seed: int) -> Design:
+    """Contestants with operators, by their names, on some mazes."""
+    known = {one.name: one for one in contestants()}
+
+    def cells() -> Iterator[tuple[tuple[Level, ...], Experiment]]:
+        for maze, (name, operators) in product(mazes, ends):
+            parameters = Parameters(**known[name].rules | VARIATION[operators])
+            yield (labels[maze], name, operators), Experiment(_algorithm(known[name]), maze, runs, seed, parameters)
+
+    labels = dict(zip(mazes, maze_labels(mazes), strict=True))
+    return Design(("maze", "contestant", "operators"), dict(cells()))
 
 
-def known() -> Design:
-    """All contestants on mazes that their designer knew."""
-    return contest(load_mazes([*MAZES, "medium"]), {one.name: RUNS for one in contestants()}, DECIDING)
+def _algorithm(contestant: Contestant) -> Algorithm:
+    return Algorithm(contestant.name, **contestant.fields)
+
+
+# Three kinds of coevolution
+
+KINDS = {
+    "mutualism": GOALS | {"rating": "mutualism"},
+    "competition": GOALS | {"rating": "competition"},
+    "commensalism": GOALS | {"rating": "genotypic novelty"},
+    "unchanging": GOALS,
+    "mutualism, best score": {"kind": "goal", "rating": "mutualism"},
+}
+
+
+def kinds(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
+    """Places that judge, with the paper's parameters, and everything else equal: what are they bred for?"""
+    labels = dict(zip(mazes, maze_labels(mazes), strict=True))
+    cells = {
+        (labels[maze], kind): Experiment(Algorithm(kind, **fields), maze, runs, seed)
+        for maze, (kind, fields) in product(mazes, KINDS.items())
+    }
+    return Design(("maze", "kind"), cells, list(cells.values()))
+
+
+# Everything
+
+
+def everything() -> list[Recorded]:
+    """All that is recorded, in the order of the record."""
+    of_class = kinds(load_mazes(list(MAZES)), CLASS, DECIDING)
+    return [Recorded(experiment, TRACED) for experiment in of_class.traced] + [
+        Recorded(experiment) for design in (decided(), explored()) for experiment in design.cells.values()
+    ]
