@@ -9,22 +9,25 @@ One generation:
      5. objective functions, if they evolve, are rated by their genotypic novelty (Algorithm 2)
      6. the next generation is bred, first the solutions, then the objective functions
 
-Algorithms differ in the population of objective functions that step 3 uses, and in whether step 5 and the second half
-of step 6 take place (see `safe.algorithms`). Random search has no objective functions, and draws every generation at
-random.
+The paper's algorithms differ in the population of objective functions that step 3 uses, and in whether step 5 and the
+second half of step 6 take place (see `safe.algorithms`). Random search has no objective functions, and draws every
+generation at random.
 
-Each choice beyond the paper concerns one step: `admission`, of end points to the archive, and `scaling`, of components,
-belong to step 2 (`safe.novelty`, `safe.judges`); `rating` to step 5 (`safe.judges`); `judging` to step 6
-(`safe.operators`). A solution's fitness and winner, by which coefficients are reported, always follow Algorithm 1, also
-if a drawn judge selects the parents.
+Each choice beyond the paper concerns one step: `admission`, of end points to the archive, and `components` and their
+`scaling` belong to step 2 (`safe.novelty`, `safe.paths`, `safe.judges`); `kind`, of objective functions, to step 3;
+`rating` to step 5 (`safe.judges`); `judging` and `pool` to step 6 (`safe.operators`, `safe.repertoire`). A solution's
+fitness and winner, by which coefficients are reported, always follow Algorithm 1, whoever selects the parents. The
+repertoire takes in the solutions of a generation after step 4, in order.
 
 All randomness of a run comes from one numpy.random.Generator(SFC64(seed)), and only from its method `random()`, in this
 order: the genes of the first solutions, one solution after the other; then, if objective functions are drawn, their
 genes, likewise; then, generation by generation, the breeding of the solutions and that of the objective functions (for
 the draws of a breeding see `safe.operators`). Random search draws the genes of every generation as those of the first.
-The draws of a choice follow those that the paper's rules make in the same step: with random admission, step 2 of every
+The draws of a choice follow those that the paper's rules make in the same step. With random admission, step 2 of every
 generation, the first and the last included, draws the index of each solution that enters the archive, if the archive
-has places and an objective function can weigh novelty; with a drawn judge, so do elites and tournaments in step 6.
+has places and an objective function can weigh novelty. With the rating "shuffled", step 5 of every generation draws its
+permutation. In step 6, objective functions choose by draws of their own; then, with the rating "redrawn", all their
+genes are drawn, as at first; with "patience" only those of the goals that are given up, in order.
 
 The loop exists once. Python steps through it (`generations`), to watch and to teach, or compiled code runs it to its
 end (`evolve`). Both call `advance`, and give the same run, bit for bit.

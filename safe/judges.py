@@ -10,10 +10,27 @@ The paper weighs components as they are ("raw"). Two other scalings make them co
     rank        each component is replaced by its rank among the generation's n, from 0 to n - 1, divided by n - 1;
                 equal values get the average of their ranks
 
-The paper rates objective functions by their genotypic novelty (Algorithm 2), which asks nothing of the solutions. Two
-other ratings, for variants in which both sides profit, ask whether an objective function prefers what is nearer to the
-goal: the correlation, over the generation, of the scores that it gives with minus the distance. It is Pearson's, of the
-values, or Spearman's, of their ranks; 0 if scores or distances do not vary.
+Beside closeness and novelty there are two more components to weigh: the rarity of a robot's path (see `safe.paths`),
+and 1 / the shortest way from its end point to the maze's goal, which no robot can know. At the goal, this is 2 as well.
+
+Instead of weighing, an objective function may be a *goal* of its own: a place in the maze. Its genome [a, b] in the
+unit square names the cell in row a * height and column b * width, rounded down; its score is minus the taxicab distance
+from there to a solution's end point. If objective functions are "mixed", the first half weighs; the others are goals.
+
+The paper rates objective functions by their genotypic novelty (Algorithm 2), which asks nothing of the solutions. Other
+ratings ask something of them:
+
+    pearson, spearman   whether an objective function prefers what is nearer to the maze's goal: the correlation, over
+                        the generation, of the scores that it gives with minus the distance, of values or of ranks; 0
+                        if scores or distances do not vary
+    mutualism           the highest score that it gives in the generation: both sides profit
+    competition         minus that
+    discovery           how many cells, new to the run, are on the paths of the solutions whose parent it chose, and 0.9
+                        times its own parent's rating
+    shuffled            the same, shuffled among the objective functions: a control
+    patience            of goals: the highest score that it has given since it was drawn. A goal is drawn again if it
+                        has been reached, within 1 cell, or if that score has not risen for some generations
+    redrawn             all are drawn again in every generation, and none is rated
 
 Floating-point operations are done in one order, so that every twin of these functions gives the same bits. A score is
 0 + a_j * c_1 + b_j * c_2, from the left. The ranks from 0, of a value in a generation, are half of (values below it +

@@ -11,9 +11,15 @@ offspring, one draw that decides on mutation and, if it takes place, one for the
 
 Fittest are, by the paper's rule, those with the best scores (Algorithm 1). With a "drawn judge", each tournament is
 judged by one objective function, whose index is drawn right after those of the tournament: the individual that it
-scores highest wins, the first drawn on a tie. Then no score is common to all, so each elite is the favourite of an
-objective function of its own. Their indices are the first draws of a breeding, one for each elite in turn, which is
-the individual that scores highest and is no elite yet, the first on a tie.
+scores highest wins, the first drawn on a tie. With a "favourite" there is no tournament: one objective function is
+drawn for each parent, which is the individual that it scores highest, the first on a tie. Then no score is common to
+all, so each elite is the favourite of an objective function of its own. Their indices are the first draws of a
+breeding, one for each elite in turn, which is the individual that scores highest and is no elite yet, the first on a
+tie.
+
+Parents may also come from the repertoire (see `safe.repertoire`), which is passed on as a whole, so there are no
+elites. Goals choose from it as from a generation; objective functions that weigh still choose from the generation, in
+which components are measured. Without objective functions, one draw gives the parent's index in the repertoire.
 """
 
 from __future__ import annotations

@@ -9,6 +9,7 @@ run depends on nothing else: not on the executor, on how many runs there are, or
 from __future__ import annotations
 
 import os
+import string
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, fields
@@ -18,7 +19,7 @@ import numpy as np
 import pandas as pd
 
 from safe import checks
-from safe.algorithms import COEFFICIENTS, Algorithm, Parameters, get_algorithm
+from safe.algorithms import Algorithm, Parameters, get_algorithm
 from safe.evolution import RULES, Generation, Run, generations
 from safe.experiments.dispatch import Dispatcher
 from safe.experiments.store import Store, StoredExperiment, content_text, sha256
@@ -28,7 +29,7 @@ from safe.robot import WEIGHTS
 
 MOST_SEEDS = 2**128  # numpy, too, draws from so many if it is asked for a seed
 WEIGHT_COLUMNS = [f"p{i}" for i in range(1, WEIGHTS + 1)]
-_COLUMNS_OF = {"controller": WEIGHT_COLUMNS, "coefficients": COEFFICIENTS}  # every other field of Run is one column
+_COLUMNS_OF = {"controller": WEIGHT_COLUMNS, "coefficients": string.ascii_lowercase}  # every other field of Run is one column
 
 
 @dataclass(frozen=True)
@@ -181,8 +182,8 @@ def run(
     -------
     pandas.DataFrame
         One row for each run, in order: run, success, generation (the last one; in a successful run the generations to
-        success), distance (of the best solution, taxicab, in cells), p1..p16 (its controller), a, b (the objective
-        function that gave it its fitness; absent in random search), evaluations, seconds.
+        success), distance (of the best solution, taxicab, in cells), p1..p16 (its controller), a, b, ... (the objective
+        function that gave it its fitness; absent if nobody judges), evaluations, seconds.
 
     Raises
     ------
@@ -258,7 +259,7 @@ def row_of(run: Run) -> dict[str, bool | int | float]:
     for field in fields(Run):
         value = getattr(run, field.name)
         if field.name in _COLUMNS_OF:
-            row |= zip(_COLUMNS_OF[field.name], value, strict=False)  # random search has no coefficients
+            row |= zip(_COLUMNS_OF[field.name], value, strict=False)  # as many coefficients as there are
         else:
             row[field.name] = value
     return row
