@@ -29,7 +29,8 @@ from safe.robot import WEIGHTS
 
 MOST_SEEDS = 2**128  # numpy, too, draws from so many if it is asked for a seed
 WEIGHT_COLUMNS = [f"p{i}" for i in range(1, WEIGHTS + 1)]
-_COLUMNS_OF = {"controller": WEIGHT_COLUMNS, "coefficients": string.ascii_lowercase}  # every other field of Run is one column
+# every other field of Run is one column
+_COLUMNS_OF = {"controller": WEIGHT_COLUMNS, "coefficients": string.ascii_lowercase}
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,131 @@
+"""What the contest found: rates over mazes, the answers to its contrasts, and evaluations to success.
+
+Mazes are the sample: what holds on these should hold on others that are drawn alike. So each maze counts once, by its
+rates of success (see `safe.results.statistics` and `safe.results.mixed`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+
+from safe.companion.contest import LEVELS, Contrast
+from safe.companion.designs import Design
+from safe.companion.findings import CONFIRMED, NOT_CONFIRMED, UNDECIDED
+from safe.experiments.experiment import Experiment
+from safe.results.mixed import mixed_model
+from safe.results.statistics import compare_pairs, holm, mean_over_mazes
+
+Results = Mapping[Experiment, pd.DataFrame]
+Counts = pd.DataFrame  # successes and runs, indexed by contestant, operators and maze
+
+
+def counts(design: Design, results: Results) -> Counts:
+    """Successes and runs of each cell of a contest.
+
+    Returns
+    -------
+    pandas.DataFrame, indexed by contestant, operators and maze
+        successes, runs, and evaluations, the sum over the runs.
+    """
+    rows = {
+        (contestant, operators, maze): {
+            "successes": int(results[experiment].success.sum()),
+            "runs": len(results[experiment]),
+            "evaluations": int(results[experiment].evaluations.sum()),
+        }
+        for (maze, contestant, operators), experiment in design.cells.items()
+        if experiment in results
+    }
+    return pd.DataFrame.from_dict(rows, orient="index").rename_axis(["contestant", "operators", "maze"])
+
+
+def telling(counts: Counts) -> list[str]:
+    """The mazes on which not all runs of all contestants succeed, and not none; the others tell nobody apart."""
+    pooled = counts.groupby(level="maze", sort=False)[["successes", "runs"]].sum()
+    return pooled.index[(pooled.successes > 0) & (pooled.successes < pooled.runs)].tolist()
+
+
+def ladder(counts: Counts) -> pd.DataFrame:
+    """Mean rates of success over mazes, the highest first.
+
+    Returns
+    -------
+    pandas.DataFrame, indexed by contestant and operators
+        mazes, runs (of each maze), rate, low and high: the mean over mazes and the ends of its 95 % interval, by the
+        bootstrap over mazes; solved: mazes on which some run succeeds; per_success: evaluations of all runs, over
+        successes.
+    """
+    rows = {}
+    for key, of_one in counts.groupby(level=["contestant", "operators"], sort=False):
+        mean, low, high = mean_over_mazes((of_one.successes / of_one.runs).to_numpy())
+        total = of_one.successes.sum()
+        rows[key] = {
+            "mazes": len(of_one),
+            "runs": int(of_one.runs.iloc[0]),
+            "rate": float(mean),
+            "low": float(low),
+            "high": float(high),
+            "solved": int((of_one.successes > 0).sum()),
+            "per_success": of_one.evaluations.sum() / total if total else np.inf,
+        }
+    table = pd.DataFrame.from_dict(rows, orient="index").rename_axis(["contestant", "operators"])
+    return table.sort_values("rate", ascending=False, kind="stable")
+
+
+def answers(contrasts: list[Contrast], counts: Counts) -> pd.DataFrame:
+    """The contrasts, decided by their rule (see `safe.companion.contest.contrasts`).
+
+    Returns
+    -------
+    pandas.DataFrame, one row for each contrast
+        question, first, second, operators, mazes (how many count); first_rate and second_rate, the means over mazes;
+        difference, low and high: of these means, and the ends of its 95 % interval; better and worse: mazes on which
+        the first has the higher rate, and the lower; p_value (Wilcoxon), p_holm; effect, error and p_model: of the
+        binomial mixed model, in log odds; answer: "confirmed" if the first has the higher mean and p_holm is below
+        the level of the question, "not confirmed" if it has the lower one and p_holm is, otherwise "undecided".
+
+    Raises
+    ------
+    KeyError
+        If a contestant did not take part.
+    """
+    counts = counts.sort_index()
+    ends = {(name, one.operators) for one in contrasts for name in (one.first, one.second)}
+    mazes = telling(counts[counts.index.droplevel("maze").isin(ends)])
+    rows = []
+    for one in contrasts:
+        first, second = (counts.loc[(name, one.operators)].loc[mazes] for name in (one.first, one.second))
+        rates = [(of_one.successes / of_one.runs).to_numpy() for of_one in (first, second)]
+        pair, model = compare_pairs(*rates), mixed_model(first.successes, first.runs, second.successes, second.runs)
+        rows.append(
+            {
+                "question": one.question,
+                "first": one.first,
+                "second": one.second,
+                "operators": one.operators,
+                "mazes": len(mazes),
+                "first_rate": rates[0].mean(),
+                "second_rate": rates[1].mean(),
+                "difference": pair.difference,
+                "low": pair.low,
+                "high": pair.high,
+                "better": pair.better,
+                "worse": pair.worse,
+                "p_value": pair.p_value,
+                "effect": model.effect,
+                "error": model.error,
+                "p_model": model.p_value,
+            }
+        )
+    table = pd.DataFrame(rows)
+    table.insert(table.columns.get_loc("p_value") + 1, "p_holm", holm(table.p_value))
+    is_detected = table.p_holm < table.question.map(LEVELS)
+    table["answer"] = np.select(
+        [is_detected & (table.difference > 0), is_detected & (table.difference < 0)],
+        [CONFIRMED, NOT_CONFIRMED],
+        UNDECIDED,
+    )
+    return table
