@@ -208,6 +208,7 @@ KINDS = {
     "competition": GOALS | {"rating": "competition"},
     "commensalism": GOALS | {"rating": "genotypic novelty"},
     "unchanging": GOALS,
+    "redrawn": GOALS | {"rating": "redrawn"},
     "mutualism, best score": {"kind": "goal", "rating": "mutualism"},
 }
 

@@ -59,6 +59,7 @@ def test_the_three_kinds_differ_by_what_places_are_bred_for():
         "competition": "competition",
         "commensalism": "genotypic novelty",
         "unchanging": "none",
+        "redrawn": "redrawn",
         "mutualism, best score": "mutualism",
     }
     alike = {replace(e.algorithm, name="any", rating="none") for (_, kind), e in design.cells.items() if "," not in kind}

@@ -1,11 +1,12 @@
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import safe
 from safe.companion import held_out
-from safe.companion.held_out import PASSED, SEEDS, UNSOLVED
+from safe.companion.held_out import FAILURES, PASSED, SEEDS, SIZE, SOLVING_RUNS, UNPLACED, UNSOLVED
 from safe.experiments.experiment import Experiment
 from safe.maze import ways_to_goal
 
@@ -138,10 +139,25 @@ def small(few, monkeypatch, tmp_path):
     held_out._mazes.cache_clear()
 
 
-def test_a_set_is_made_and_read(small):
-    path = held_out.make("design", (HOPELESS, HOPEFUL), small / "store.sqlite", folder=small)
-    header, *lines = map(json.loads, path.read_text().splitlines())
+def test_a_set_is_the_first_mazes_that_pass(small, monkeypatch):
+    def scripted(maze, *_):
+        outcome = (UNSOLVED, PASSED, "random")[int(maze.name.removeprefix("design, candidate ")) % 3]
+        return {"outcome": outcome, "runs": {"standard": (6, 0)}} | (
+            {"solved": ["hopeful", 0]} if outcome == PASSED else {}
+        )
+
+    monkeypatch.setattr(held_out, "examine", scripted)
+    header, *lines = map(
+        json.loads, held_out.make("design", (HOPELESS, HOPEFUL), folder=small).read_text().splitlines()
+    )
+    drawn = {number: held_out.candidate(SEEDS["design"], number) for number in range(len(lines))}
+    assert [line["number"] for line in lines] == [*drawn]
+    for number, line in enumerate(lines):
+        assert line["outcome"] == ((UNSOLVED, PASSED, "random")[number % 3] if drawn[number] else UNPLACED)
+    passed = [number for number in drawn if drawn[number] and number % 3 == 1]
+    assert (len(passed), passed[-1]) == (2, len(lines) - 1)
     mazes = held_out.design_set()
+    assert mazes == [drawn[number].maze("again") for number in passed]
     assert [maze.name for maze in mazes] == ["design 1", "design 2"]
     assert header == {
         "set": "design",
@@ -149,10 +165,6 @@ def test_a_set_is_made_and_read(small):
         "contestants": ["hopeless", "hopeful"],
         "digest": held_out.digest(mazes),
     }
-    assert [line["number"] for line in lines] == [*range(len(lines))]
-    passed = [line["number"] for line in lines if line["outcome"] == PASSED]
-    assert mazes == [held_out.candidate(SEEDS["design"], number).maze("again") for number in passed]
-    assert passed[-1] == len(lines) - 1
 
 
 def test_making_continues_where_it_was_interrupted(small, monkeypatch):
@@ -173,3 +185,103 @@ def test_making_continues_where_it_was_interrupted(small, monkeypatch):
     assert held_out.make("design", (HOPEFUL,), store, folder=small).read_text() == made
     monkeypatch.setattr("safe.experiments.experiment.Dispatcher", None)  # computes runs
     assert held_out.make("design", (HOPEFUL,), store, folder=small).read_text() == made
+
+
+# The record
+
+
+@pytest.fixture(params=SETS)
+def name(request):
+    return request.param
+
+
+@pytest.fixture
+def lines(name):
+    return held_out._recorded(name)[1]
+
+
+def test_sets_have_sixty_different_mazes_that_nobody_knew(name):
+    mazes = SETS[name]()
+    assert [maze.name for maze in mazes] == [f"{name} {number}" for number in range(1, 61)]
+    others = [
+        *map(safe.load_maze, ("maze1", "maze2", "medium", "hard")),
+        *SETS["test" if name == "design" else "design"](),
+    ]
+    assert len({*mazes, *others}) == 60 + len(others)
+
+
+def test_a_set_cannot_be_changed_by_who_got_it(name):
+    SETS[name]().clear()
+    assert len(SETS[name]()) == SIZE
+
+
+def test_recorded_mazes_are_those_that_were_certified(name):
+    header, _ = held_out._recorded(name)
+    assert header["digest"] == held_out.digest(SETS[name]())
+    assert (header["set"], header["seed"]) == (name, SEEDS[name])
+    assert header["contestants"] == [algorithm.name for algorithm, _ in held_out.CONTESTANTS]
+
+
+def test_recorded_candidates_are_those_of_the_seed(name, lines):
+    """Of a sample, since a candidate takes 50 ms."""
+    assert [line["number"] for line in lines] == [*range(len(lines))]
+    drawn = np.random.default_rng().choice(lines, 20, replace=False).tolist()
+    for line in [*drawn, lines[0], lines[-1]]:
+        found = held_out.candidate(SEEDS[name], line["number"])
+        assert (found is None) == (line["outcome"] == UNPLACED), line["number"]
+        if "walls" in line:
+            assert json.loads(json.dumps(found._asdict())) == {field: line[field] for field in found._fields}
+
+
+def test_certificates_hold_the_tests_that_a_candidate_came_to(name):
+    table = held_out.certificates(name)
+    assert set(table.outcome) == {UNPLACED, *FAILURES, UNSOLVED, PASSED}
+    certified = table[table.outcome.isin([UNSOLVED, PASSED])]
+    for test, runs in FAILURES.items():
+        assert (certified[[f"{test}_runs", f"{test}_successes"]] == (runs, 0)).all(axis=None)
+        rejected = table[table.outcome == test]
+        assert (rejected[f"{test}_successes"] == 1).all()
+        assert rejected[f"{test}_runs"].between(1, runs).all()
+    later = table[[column for column in table if column.startswith(("random", "solving"))]]
+    assert later[table.outcome.isin([UNPLACED, "standard"])].isna().all(axis=None)
+    assert table.walls.notna().equals(table.outcome.isin([UNSOLVED, PASSED]))
+    most = SOLVING_RUNS * len(held_out.CONTESTANTS)
+    assert (table[table.outcome == UNSOLVED][["solving_runs", "solving_successes"]] == (most, 0)).all(axis=None)
+
+
+def test_a_set_is_the_first_sixty_candidates_that_passed(name):
+    table = held_out.certificates(name)
+    passed = table[table.outcome == PASSED]
+    assert passed.maze.tolist() == [maze.name for maze in SETS[name]()]
+    assert passed.index[-1] == table.index[-1]
+    assert (passed.solving_successes == 1).all()
+    assert passed.solved_by.isin([algorithm.name for algorithm, _ in held_out.CONTESTANTS]).all()
+    assert (table[table.outcome != PASSED][["maze", "solved_by"]] == "").all(axis=None)
+    for maze, (_, row) in zip(SETS[name](), passed.iterrows(), strict=True):
+        assert (row.distance, row.way) == (maze.distance(maze.start), ways_to_goal(maze)[maze.start])
+
+
+@pytest.mark.parametrize("outcome", [*FAILURES, PASSED])
+def test_a_recorded_success_can_be_made_again(name, lines, outcome):
+    line = np.random.default_rng().choice([line for line in lines if line["outcome"] == outcome])
+    maze = held_out.candidate(SEEDS[name], line["number"]).maze("again")
+    if outcome == PASSED:
+        who, run = line["solved"]
+        algorithm, parameters = {contestant[0].name: contestant for contestant in held_out.CONTESTANTS}[who]
+        experiment = Experiment(algorithm, maze, seed=held_out.SOLVING, parameters=parameters)
+    else:
+        experiment, run = Experiment(outcome, maze, seed=held_out.CERTIFYING), line["runs"][outcome][0] - 1
+    for number in {run, max(run - 1, 0)}:
+        made = safe.evolve(maze, experiment.algorithm, experiment.seed_sequence(number), experiment.parameters)
+        assert made.success == (number == run), (line["number"], number)
+
+
+def test_a_set_that_does_not_exist():
+    with pytest.raises(ValueError, match="name must be one of 'design', 'test'; got 'mine'"):
+        held_out.certificates("mine")
+
+
+def test_the_digest_depends_on_cells_and_order():
+    mazes = [safe.Maze.from_drawing(drawing) for drawing in ("S.G", "S..G")]
+    assert len({held_out.digest(order) for order in (mazes, mazes[::-1], mazes[:1], mazes[1:])}) == 4
+    assert held_out.digest([replace(mazes[0], name="another")]) == held_out.digest(mazes[:1])
