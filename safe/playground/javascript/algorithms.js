@@ -27,6 +27,16 @@ export const WEIGHABLE = [...COMPONENTS, "path rarity", "1 / way"]; // what it m
 // of an algorithm, in the order of addresses
 export const CHOICES = { rating: RATINGS, scaling: SCALINGS, judging: JUDGINGS, kind: KINDS, pool: POOLS };
 
+export const PAPERS = { // what an algorithm is unless it says otherwise
+  objectives: null,
+  rating: RATINGS[0],
+  scaling: SCALINGS[0],
+  judging: JUDGINGS[0],
+  kind: KINDS[0],
+  components: COMPONENTS,
+  pool: POOLS[0],
+};
+
 export const ALGORITHMS = {
   standard: completed({ name: "standard", objectives: [[1, 0]] }),
   novelty: completed({ name: "novelty", objectives: [[0, 1]] }),
@@ -35,11 +45,10 @@ export const ALGORITHMS = {
   random: completed({ name: "random", objectives: [] }),
 };
 
-/** An algorithm with all that it does not say: the first of each of CHOICES, and the paper's components. */
-function completed(algorithm) {
-  const whole = { name: undefined, objectives: null, components: COMPONENTS };
-  for (const [choice, [first]] of Object.entries(CHOICES)) whole[choice] = first;
-  for (const field of Object.keys(whole)) if (algorithm[field] !== undefined) whole[field] = algorithm[field];
+/** An algorithm with all that it does not say. */
+function completed({ name, ...fields }) {
+  const whole = { name, ...PAPERS };
+  for (const field of Object.keys(PAPERS)) if (fields[field] !== undefined) whole[field] = fields[field];
   return whole;
 }
 
