@@ -2,7 +2,7 @@
 
 import { checkedAlgorithm, checkedParameters, genesOf } from "./algorithms.js";
 import { InputError } from "./checks.js";
-import { bestScores, scale, weighersOf } from "./judges.js";
+import { bestScores, placeOf, scale, weighersOf } from "./judges.js";
 import { waysToGoal } from "./maze.js";
 import {
   admitAbove,
@@ -85,7 +85,7 @@ export class Evolution {
     this.objectiveArchive = new Archive(archive, this.genes);
     this.idle = new Float64Array(judges); // generations since a robot came nearer to a goal, with patience
     this.number = -1; // of the generation
-    this.best = { distance: Infinity, controller: null, coefficients: [], endpoint: null };
+    this.best = { distance: Infinity, controller: null, coefficients: [], endpoint: null, goal: null };
     this.isOver = false;
     this.brood = broodOf(population, WEIGHTS);
     this.objectiveBrood = broodOf(judges, this.genes);
@@ -228,6 +228,7 @@ export class Evolution {
           controller: rowOf(this.genomes, i, WEIGHTS),
           coefficients: this.isJudged ? rowOf(this.objectives, this.winners[i], this.genes) : [],
           endpoint: rowOf(this.endpoints, i, 2),
+          goal: this.isJudged && this.winners[i] >= this.weighers ? placeOf(this.judges, this.winners[i]) : null,
         };
       }
     }

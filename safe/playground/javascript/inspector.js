@@ -2,9 +2,15 @@
 
 import { labelled, make, makeButton, makeControls, makeSelect, makeTableHead } from "./dom.js";
 import { titleOf } from "./labels.js";
-import { cellsText, percentage, shortNumber } from "./text.js";
+import { cellsText, listText, percentage, shortNumber } from "./text.js";
 
 const MOST_SUMMANDS = 30; // of a novelty that are written out
+const REWARDS = { // for what a robot is given that part of its fitness, and what the part is called
+  "1 / distance": ["for being near the goal", "goal"],
+  "novelty": ["for novelty", "novelty"],
+  "path rarity": ["for rare cells on its path", "rarity"],
+  "1 / way": ["for a short way to the goal", "way"],
+};
 const STANDING_HEAD = ["Measure", "This robot", "Largest", "Place"];
 
 export class Inspector {
@@ -44,17 +50,16 @@ export class Inspector {
   }
 
   #describe({ panel, individual, inspection }) {
-    const { ends, objectives } = panel.latest;
+    const { ends } = panel.latest;
     const { endpoint: [row, column], distance, novelty, fitness, controller } = inspection;
     const lines = [`Robot ${individual} ended at row ${row}, column ${column}, ${cellsText(distance)} from the goal.`];
     if (novelty !== null) lines.push(noveltyText(inspection));
-    if (fitness !== null) lines.push(fitnessText(inspection));
-    else lines.push("Nobody judges it: in random search there is nothing to select by.");
-    const share = goalShareOf(inspection);
+    lines.push(fitness !== null ? fitnessText(inspection) : nobodyText(panel.latest));
+    const shares = sharesOf(inspection);
     return [
       ...lines.map((line) => make("p", { class: "explanation" }, line)),
-      ...(share === null ? [] : [makeSharesBar(share)]),
-      ...(fitness === null ? [] : [make("p", {}, judgeText(inspection, ends.length, objectives.length))]),
+      ...(shares.length > 0 ? [makeSharesBar(shares)] : []),
+      ...(fitness !== null ? [make("p", {}, judgeText(inspection, panel))] : []),
       makeStandings(inspection.standings, ends.length),
       makeButton("Drive this robot", () => this.ondrive(controller)),
     ];
@@ -74,40 +79,55 @@ function noveltyText({ novelty, neighbours, k }) {
 }
 
 function fitnessText(inspection) {
-  const { fitness, winner, coefficients: [a, b], fromGoal, fromNovelty } = inspection;
-  const share = goalShareOf(inspection);
-  const [goal, novelty] = share === null ? ["", ""] : [share, 1 - share].map((part) => ` (${percentage(part, 1)} %)`);
-  return (
-    `Fitness ${shortNumber(fitness)}, by objective function ${winner} with a = ${shortNumber(a)} and ` +
-    `b = ${shortNumber(b)}: ${shortNumber(fromGoal)} for being near the goal${goal} and ` +
-    `${shortNumber(fromNovelty)} for novelty${novelty}.`
-  );
+  const { fitness, winner, goal, terms } = inspection;
+  const given = `Fitness ${shortNumber(fitness)}, by objective function ${winner}`;
+  if (goal) return `${given}, a goal: the place (${goal.row}, ${goal.column}), ${cellsText(goal.distance)} away.`;
+  const coefficients = terms.map(({ coefficient }, c) => `${"abcd"[c]} = ${shortNumber(coefficient)}`);
+  const shares = sharesOf(inspection);
+  const parts = terms.map(({ name, value }, c) => {
+    const share = shares.length > 0 ? ` (${percentage(shares[c].share, 1)} %)` : "";
+    return `${shortNumber(value)} ${REWARDS[name][0]}${share}`;
+  });
+  return `${given} with ${listText(coefficients)}: ${listText(parts)}.`;
+}
+
+/** Why a robot has no fitness. */
+function nobodyText({ reached }) {
+  return reached === null
+    ? "Nobody judges it: in random search there is nothing to select by."
+    : "Nobody judges it: any robot of the repertoire may become a parent, which holds the latest robot of each of the " +
+      `${reached} cells where one has ended.`;
 }
 
 /** Who decides: how much hangs on the objective function behind the fitness, and who selects parents. */
-function judgeText({ winner, wins, areJudgesDrawn }, robots, judges) {
+function judgeText({ winner, wins }, { algorithm: { judging, kind }, latest }) {
+  const robots = latest.ends.length, judges = latest.weights.length + latest.goals.length;
   const given = `Objective function ${winner} gives ${wins === robots ? "all" : `${wins} of the`} ${robots} fitnesses`;
-  return areJudgesDrawn && judges > 1
-    ? `${given}. But parents are not chosen by fitness: each tournament draws its judge from all ${judges} ` +
-      "objective functions."
-    : `${given}, by which tournaments choose parents.`;
+  const isDrawn = judging === "drawn judge";
+  if (judging === "best score" || (isDrawn && judges === 1)) return `${given}, by which tournaments choose parents.`;
+  const from = latest.reached === null ? "" : ` of the repertoire, the latest of each of the ${latest.reached} cells ` +
+    `where one has ended${kind === "mixed" ? ", if that is a goal, and of this generation, if it weighs" : ""}`;
+  const how = isDrawn
+    ? `each tournament draws its judge from all ${judges} objective functions${from && `, among robots${from}`}.`
+    : `each is the favourite of one of the ${judges} objective functions, drawn by chance` +
+      `${from && `: the robot${from}, to which it gives its highest score`}.`;
+  return `${given}. But parents are not chosen by fitness: ${how}`;
 }
 
-/** Which share of a fitness is for being near the goal, the rest being for novelty.
- *
- * null if there are no shares: without a fitness, or with negative coefficients. */
-function goalShareOf({ fitness, fromGoal, fromNovelty }) {
-  return fitness > 0 && Math.min(fromGoal, fromNovelty) >= 0 ? fromGoal / fitness : null;
+/** What shares of a fitness are for what: { title, share }; none if there are no shares, or only one can be. */
+function sharesOf({ fitness, terms }) {
+  if (!(fitness > 0) || terms.length < 2 || terms.some(({ value }) => value < 0)) return [];
+  return terms.map(({ name, value }) => ({ title: REWARDS[name][1], share: value / fitness }));
 }
 
-function makeSharesBar(share) {
-  const rest = 1 - share;
-  const text = `Of its fitness, ${percentage(share, 1)} % is goal and ${percentage(rest, 1)} % novelty`;
+function makeSharesBar(shares) {
+  const text = listText(shares.map(({ title, share }) => `${percentage(share, 1)} % ${title}`));
   return make(
     "div",
-    { class: "shares", role: "img", "aria-label": text },
-    make("span", { class: "goal", style: `flex-grow: ${share}` }, share > 0.1 ? "goal" : ""),
-    make("span", { class: "novelty", style: `flex-grow: ${rest}` }, share < 0.9 ? "novelty" : ""),
+    { class: "shares", role: "img", "aria-label": `Its fitness: ${text}` },
+    ...shares.map(({ title, share }) =>
+      make("span", { class: title, style: `flex-grow: ${share}` }, share > 0.1 ? title : "")
+    ),
   );
 }
 

@@ -79,17 +79,21 @@ export function byDrawnJudge(genomes, repertoire, judges, n, size, rng) {
 /** The one that a drawn objective function scores highest: a goal in the repertoire, if there is one, others in the
  * generation. */
 export function byFavourite(genomes, repertoire, judges, n, rng) {
-  const scores = new Float64Array(n);
   return () => {
-    const judge = drawIndex(rng, countOf(judges));
-    if (repertoire && judge >= judges.weighers) {
-      return { genomes: repertoire.genomes, parent: repertoire.nearestTo(placeOf(judges, judge)), judge };
-    }
-    scoreAll(judges, judge, scores);
-    let parent = 0;
-    for (let i = 1; i < n; i++) if (scores[i] > scores[parent]) parent = i;
-    return { genomes, parent, judge };
+    const judge = drawIndex(rng, countOf(judges)), isKnown = repertoire && judge >= judges.weighers;
+    const parent = favouriteOf(judges, judge, repertoire, n);
+    return { genomes: isKnown ? repertoire.genomes : genomes, parent, judge };
   };
+}
+
+/** The favourite of the j-th objective function, likewise. */
+export function favouriteOf(judges, j, repertoire, n) {
+  if (repertoire && j >= judges.weighers) return repertoire.nearestTo(placeOf(judges, j));
+  const scores = new Float64Array(n);
+  scoreAll(judges, j, scores);
+  let favourite = 0;
+  for (let i = 1; i < n; i++) if (scores[i] > scores[favourite]) favourite = i;
+  return favourite;
 }
 
 /** Any of the repertoire: nobody judges. */

@@ -18,6 +18,10 @@ const WATCH_LEGEND = [
   ["dashes", "how its end moved from generation to generation"],
   ["selected", "the robot looked at, and its nearest neighbours"],
 ];
+const GOALS_LEGEND = [
+  ["cross", "places that objective functions are, goals"],
+  ["tie", "from such a place to its favourite, the robot that ended nearest"],
+];
 const FRAME = 40; // milliseconds between two pictures, at the least
 const CALM_FRAME = 1000; // the same, if the reader asks for less motion
 
@@ -41,6 +45,12 @@ export class WatchView {
     this.origin = make("p", { class: "note" });
     this.row = make("div", { class: "panels" });
     this.charts = new WatchCharts();
+    this.linking = make("input", { type: "checkbox", onchange: () => this.#draw() });
+    this.goalsKey = makeBlock( // shown only with goals
+      makeLegend(GOALS_LEGEND),
+      make("label", { class: "choice" }, this.linking, "link places to their favourites"),
+    );
+    this.goalsKey.hidden = true;
     this.inspector = new Inspector({
       onselect: (i, individual) => this.#select(i, () => individual),
       ondrive: this.ondrive,
@@ -54,7 +64,7 @@ export class WatchView {
       make(
         "div",
         { class: "stage" },
-        makeBlock(this.row, makeLegend(WATCH_LEGEND)),
+        makeBlock(this.row, makeLegend(WATCH_LEGEND), this.goalsKey),
         makeBlock(this.inspector.element, this.charts.element),
       ),
     );
@@ -193,7 +203,10 @@ export class WatchView {
 
   #draw() {
     const { selection, group: { panels, generation } } = this;
-    for (const panel of panels) panel.show(panel === selection?.panel ? selection.inspection : null);
+    for (const panel of panels) {
+      panel.show(panel === selection?.panel ? selection.inspection : null, this.linking.checked);
+    }
+    this.goalsKey.hidden = !panels.some(({ latest }) => latest.goals.length > 0);
     this.transport.showGeneration(generation);
     this.charts.show(panels, selection);
     this.inspector.show(panels, selection);
