@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from safe import Maze, Parameters, Run
-from safe.algorithms import Algorithm
-from safe.evolution import GOAL, NOVELTY, Seed, Settings, State, breed_both, keep_best, run_so_far, start_run
+from safe.algorithms import CLOSENESS, NOVELTY, Algorithm
+from safe.evolution import Seed, Settings, State, breed_both, keep_best, run_so_far, start_run
 from safe.judges import UNRATED
 from safe.kernel import kernel
 from safe.maze import MazeArrays
@@ -57,7 +57,7 @@ def drive(
             distance = abs(row - goal_row) + abs(column - goal_column)
             state.endpoints[i] = row, column
             state.distances[i] = distance
-            state.components[GOAL, i] = 1.0 / distance if distance > 0 else 2.0
+            state.components[CLOSENESS, i] = 1.0 / distance if distance > 0 else 2.0
         if settings.weighed[NOVELTY]:
             rate(state.endpoints, archive, settings.k, True, state.components[NOVELTY])
         if judged:

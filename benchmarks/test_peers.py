@@ -229,8 +229,9 @@ def run_in_python(maze, algorithm, seed, parameters):
     algorithm = safe.ALGORITHMS[algorithm]
     rng = np.random.Generator(np.random.SFC64(seed))
     drawing = maze.drawing().split("\n")
-    *_, (*_, best, _, _) = oracle.evolve(drawing, algorithm, parameters, rng)
-    return best[0], tuple(best[1])
+    *_, last = oracle.evolve(drawing, algorithm, parameters, rng)
+    distance, genome, _ = last.best
+    return distance, tuple(genome)
 
 
 def run_by(evolve):

@@ -103,9 +103,16 @@ def workload(
 
 
 @kernel
+def judges_in(run: Recording, g: int, state: State, settings: Settings) -> Judges:
+    """The objective functions of a generation."""
+    shape = settings.maze.walls.shape
+    return Judges(run.objectives[g], run.components[g], settings.first_goal, state.endpoints, shape)
+
+
+@kernel
 def robot(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.genomes)):
-        walk_all(settings.maze, run.genomes[g], settings.steps, state.walk_space, state.endpoints)
+        walk_all(settings.maze, run.genomes[g], settings.steps, state.walk_space, state.endpoints, state.paths)
 
 
 @kernel
@@ -119,15 +126,15 @@ def novelty(state: State, settings: Settings, rng: np.random.Generator, run: Rec
 @kernel
 def fitness(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.fitness)):
-        best_scores(Judges(run.objectives[g], run.components[g]), state.fitness, state.winners)
+        best_scores(judges_in(run, g, state, settings), state.fitness, state.winners)
 
 
 @kernel
 def breeding(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.genomes)):
-        judges = Judges(run.objectives[g], run.components[g])
-        breed(run.genomes[g], run.fitness[g], judges, settings.breeding, rng, state.offspring)
-        copy_genomes(state.offspring, state.genomes)
+        judges = judges_in(run, g, state, settings)
+        breed(run.genomes[g], run.fitness[g], judges, state.repertoire, settings.breeding, rng, state.offspring)
+        copy_genomes(state.offspring.genomes, state.genomes)
 
 
 @kernel
@@ -139,9 +146,10 @@ def objective_functions(state: State, settings: Settings, rng: np.random.Generat
 @kernel
 def breeding_of_objective_functions(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.objectives)):
-        judges, rates = Judges(run.objectives[g], run.components[g]), settings.objective_breeding
-        breed(run.objectives[g], run.objective_fitness[g], judges, rates, rng, state.objective_offspring)
-        copy_genomes(state.objective_offspring, state.objectives)
+        judges, rates = judges_in(run, g, state, settings), settings.objective_breeding
+        offspring = state.objective_offspring
+        breed(run.objectives[g], run.objective_fitness[g], judges, state.repertoire, rates, rng, offspring)
+        copy_genomes(offspring.genomes, state.objectives)
 
 
 @kernel

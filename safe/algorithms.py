@@ -15,7 +15,8 @@ and the algorithms differ only in who judges:
 
 A choice has a name, and the paper's is the default:
 
-    who judges      `Algorithm`: `rating` and `scaling` (see `safe.judges`), `judging` (see `safe.operators`)
+    who judges      `Algorithm`: `kind`, `components`, `scaling` and `rating` (see `safe.judges`), `judging` (see
+                    `safe.operators`), `pool` (see `safe.repertoire`)
     sizes, rules    `Parameters`: `admission` (see `safe.novelty`)
 """
 
@@ -26,12 +27,15 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 
 from safe import checks
-from safe.judges import RATINGS, SCALINGS
+from safe.judges import KINDS, RATINGS, SCALINGS
 from safe.novelty import ADMISSIONS, ARCHIVE_CAPACITY, K
 from safe.operators import JUDGINGS
+from safe.repertoire import POOLS
 from safe.robot import STEPS
 
-COMPONENTS = ("1 / distance", "novelty")  # what an objective function weighs
+COMPONENTS = ("1 / distance", "novelty")  # what an objective function weighs in the paper
+WEIGHABLE = (*COMPONENTS, "path rarity", "1 / way")  # what it may weigh
+CLOSENESS, NOVELTY, PATH_RARITY, WAY = range(len(WEIGHABLE))
 COEFFICIENTS = tuple(string.ascii_lowercase[: len(COMPONENTS)])  # the names of the components' coefficients: a, b
 
 
@@ -52,15 +56,23 @@ class Algorithm:
         distance to the goal.
     scaling : {"raw", "maximum", "rank"}
         What is weighed: the components as they are, divided by the generation's largest, or their ranks from 0 to 1.
-    judging : {"best score", "drawn judge"}
-        Who selects parents: the best of the scores that a solution gets from all objective functions, or for each
-        tournament one objective function, drawn uniformly.
+    judging : {"best score", "drawn judge", "favourite"}
+        Who selects parents: the best of the scores that a solution gets from all objective functions; or for each
+        tournament one objective function, drawn uniformly; or such a one takes the individual that it scores highest.
+    kind : {"weights", "goal", "mixed"}
+        Of objective functions: weighted sums of components (Equation 1); or goals, which are places in the maze, (a, b)
+        in the unit square, and score a solution by how near to it the robot ends; or as many of these as of those.
+    components : sequence of str
+        What objective functions weigh, of "1 / distance", "novelty", "path rarity" (see `safe.paths`) and "1 / way",
+        the shortest way from the end point to the goal; an objective function has a coefficient for each.
+    pool : {"generation", "repertoire"}
+        From which parents are taken. With the repertoire (see `safe.repertoire`), nobody or goals must choose.
 
     Raises
     ------
     ValueError
-        If an objective function does not have one finite coefficient for each component, if a choice is unknown, or
-        if objective functions that evolve are odd in number.
+        If an objective function does not have one finite coefficient for each component, if a choice is unknown or
+        does not go with another, or if objective functions that evolve are odd in number.
 
     Examples
     --------
@@ -73,18 +85,65 @@ class Algorithm:
     rating: str = "none"
     scaling: str = "raw"
     judging: str = "best score"
+    kind: str = "weights"
+    components: Sequence[str] = COMPONENTS
+    pool: str = "generation"
 
     def __post_init__(self) -> None:
         checks.text("name", self.name)
-        checks.choice("rating", self.rating, RATINGS)
-        checks.choice("scaling", self.scaling, SCALINGS)
-        checks.choice("judging", self.judging, JUDGINGS)
-        if self.objectives is None:
-            return
-        coefficients = checks.array("objectives", self.objectives, (None, len(COMPONENTS)), or_empty=True)
+        for field, choices in (
+            ("rating", RATINGS),
+            ("scaling", SCALINGS),
+            ("judging", JUDGINGS),
+            ("kind", KINDS),
+            ("pool", POOLS),
+        ):
+            checks.choice(field, getattr(self, field), choices)
+        object.__setattr__(self, "components", checks.choices("components", self.components, WEIGHABLE))
+        if self.objectives is not None:
+            self._check_objectives()
+        self._check_together()
+
+    def _check_objectives(self) -> None:
+        bounds = () if self.kind == "weights" else (0, 1)
+        coefficients = checks.array("objectives", self.objectives, (None, self.genes), *bounds, or_empty=True)
         object.__setattr__(self, "objectives", tuple(map(tuple, coefficients.tolist())))
         if self.rating != "none" and (len(coefficients) == 0 or len(coefficients) % 2):
             raise ValueError(f"objectives must be even in number if they evolve; got {len(coefficients)}")
+        if self.kind == "mixed" and len(coefficients) % 2:
+            raise ValueError(f"objectives must be even in number if they are mixed; got {len(coefficients)}")
+
+    def _check_together(self) -> None:
+        """Check that the choices go together."""
+
+        def check(field: str, allowed: Sequence[object], reason: str) -> None:
+            if getattr(self, field) not in allowed:
+                *others, last = map(repr, allowed)
+                words = f"{', '.join(others)} or {last}" if others else last
+                raise ValueError(f"{field} must be {words} {reason}; got {getattr(self, field)!r}")
+
+        if self.objectives == ():
+            check("kind", ("weights",), "without objective functions")
+            if self.pool == "repertoire":
+                check("judging", ("best score",), "without objective functions")
+            return
+        if self.kind == "goal":
+            check("scaling", ("raw",), "for goals, which weigh nothing")
+            check("components", (COMPONENTS,), "for goals, which weigh nothing")
+        if self.kind == "mixed":
+            check("rating", ("none", "redrawn"), "for a mixture with goals")
+        if self.rating == "patience":
+            check("kind", ("goal",), "for a rating by patience")
+        if self.pool == "repertoire":
+            check("kind", ("goal", "mixed"), "to choose from the repertoire")
+            judgings = ("drawn judge", "favourite") if self.kind == "goal" else ("favourite",)
+            check("judging", judgings, "to choose from the repertoire")
+
+    @property
+    def genes(self) -> int:
+        """How many numbers an objective function consists of: coefficients, or the two of a place."""
+        weights = len(self.components)
+        return {"weights": weights, "goal": 2, "mixed": max(2, weights)}[self.kind]
 
     @property
     def content(self) -> dict:
@@ -95,15 +154,16 @@ class Algorithm:
         >>> Algorithm("mine", rating="pearson", judging="drawn judge").content
         {'objectives': None, 'rating': 'pearson', 'judging': 'drawn judge'}
         """
-        return {"objectives": self.objectives, "rating": self.rating, **_departures(self, ("scaling", "judging"))}
+        names = "scaling", "judging", "kind", "components", "pool"
+        return {"objectives": self.objectives, "rating": self.rating, **_departures(self, names)}
 
     @property
     def is_random_search(self) -> bool:
-        """Is there no objective function, and so nothing to select by?"""
-        return self.objectives == ()
+        """Is there nobody to judge and nothing to remember, so that every generation is drawn at random?"""
+        return self.objectives == () and self.pool == "generation"
 
 
-def _departures(chosen: Algorithm | Parameters, names: Iterable[str]) -> dict[str, int | float | str]:
+def _departures(chosen: Algorithm | Parameters, names: Iterable[str]) -> dict[str, object]:
     """The fields among these names whose values differ from the defaults, which are attributes of the class."""
     return {name: value for name in names if (value := getattr(chosen, name)) != getattr(type(chosen), name)}
 
@@ -160,6 +220,7 @@ class Parameters:
     admission: str = "lowest replaced"  # what enters the archive of end points; see `safe.novelty`
     admitted: int = 5  # solutions that enter it in each generation, with "random"
     threshold: float = 6.0  # novelty above which they enter it at first, with "threshold"; Lehman and Stanley's
+    patience: int = 10  # generations without getting nearer to a goal, after which it is given up, with "patience"
 
     def __post_init__(self) -> None:
         lowest = {"elites": 0, "archive": 0, "success_distance": 0}

@@ -6,7 +6,7 @@ A failed check raises a ValueError that names the argument, says what it must be
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from numbers import Integral, Real
 
 import numpy as np
@@ -65,6 +65,15 @@ def choice(name: str, value: object, allowed: Collection[str]) -> str:
         options = ", ".join(repr(option) for option in allowed)
         raise ValueError(f"{name} must be one of {options}; got {shown(value)}")
     return value
+
+
+def choices(name: str, value: object, allowed: Collection[str]) -> tuple[str, ...]:
+    """`value` as a tuple; it must be a sequence of at least one of the strings in `allowed`, each at most once."""
+    chosen = tuple(value) if isinstance(value, Sequence) and not isinstance(value, str) else ()
+    if not chosen or any(not isinstance(one, str) or one not in allowed or chosen.count(one) > 1 for one in chosen):
+        options = ", ".join(repr(option) for option in allowed)
+        raise ValueError(f"{name} must be some of {options}, each at most once; got {shown(value)}")
+    return chosen
 
 
 def array(

@@ -41,21 +41,32 @@ from typing import NamedTuple
 import numpy as np
 
 from safe import checks
-from safe.algorithms import COMPONENTS, Algorithm, Parameters, get_algorithm
+from safe.algorithms import CLOSENESS, NOVELTY, PATH_RARITY, WAY, WEIGHABLE, Algorithm, Parameters, get_algorithm
 from safe.judges import (
+    COMPETITION,
+    DISCOVERY,
     GENOTYPIC_NOVELTY,
+    MUTUALISM,
+    PATIENCE,
     RATINGS,
     RAW,
+    REDRAWN,
     SCALINGS,
+    SHUFFLED,
     SPEARMAN,
     UNRATED,
     Judges,
     best_scores,
     correlations,
+    credit,
+    give_up,
+    highest_scores,
     scale,
+    shuffle,
+    wait,
 )
 from safe.kernel import kernel, while_compiling
-from safe.maze import Maze, MazeArrays
+from safe.maze import Maze, MazeArrays, ways_to_goal
 from safe.maze_files import load_maze
 from safe.novelty import (
     ADMISSIONS,
@@ -68,7 +79,9 @@ from safe.novelty import (
     score_cells,
     score_points,
 )
-from safe.operators import JUDGINGS, Breeding, breed, copy_genomes, draw_genomes
+from safe.operators import BEST_SCORE, JUDGINGS, Breeding, Offspring, breed, copy_genomes, draw_genomes, empty_offspring
+from safe.paths import Paths, empty_paths, score_paths
+from safe.repertoire import POOLS, REPERTOIRE, Repertoire, empty_repertoire, keep_latest, known
 from safe.robot import WEIGHTS, WalkSpace, walk_all, walk_space
 
 RULES = 1  # version of the rules, raised with every change that alters any run
@@ -88,7 +101,7 @@ class Run:
     generation: int  # the last one, counted from 0; in a successful run, the generations to success
     distance: int  # of the best solution's end point to the goal, taxicab, in cells
     controller: tuple[float, ...]  # p_1..p_16
-    coefficients: tuple[float, ...]  # (a, b) of the objective function behind its fitness; () in random search
+    coefficients: tuple[float, ...]  # (a, b, ...) of the objective function behind its fitness; () if there is none
     evaluations: int  # solutions evaluated
 
 
@@ -99,15 +112,18 @@ class Generation(Run):
     genomes: np.ndarray  # float, (population, 16): p_1..p_16 of each solution
     endpoints: np.ndarray  # int, (population, 2): row and column
     distances: np.ndarray  # int, (population,): end point to goal, taxicab, in cells
-    components: np.ndarray  # float, (components, population), raw; novelty is 0 if no objective function can weigh it
+    components: np.ndarray  # float, (components, population), raw; what no objective function can weigh is 0
     scaled: np.ndarray | None  # float, likewise: what is weighed, or 0 if it cannot be; None if it is the components
     novelty: np.ndarray | None  # float, (population,); None if no objective function can weigh it
-    fitness: np.ndarray | None  # float, (population,): the best scores, even with drawn judges; None in random search
-    objectives: np.ndarray  # float, (objective functions, components): the coefficients of each
-    objective_fitness: np.ndarray | None  # float, (objective functions,); None if they do not evolve
+    fitness: np.ndarray | None  # float, (population,): the best scores, even with drawn judges; None if nobody judges
+    objectives: np.ndarray  # float, (objective functions, genes): the coefficients of each, or its place
+    objective_fitness: np.ndarray | None  # float, (objective functions,); None if they are not rated
     winners: np.ndarray | None  # int, (population,): the objective function behind each solution's fitness
     archive: tuple[np.ndarray, np.ndarray]  # points (n, 2) and scores (n,), the oldest first
-    objective_archive: tuple[np.ndarray, np.ndarray]  # points (n, components) and scores (n,)
+    objective_archive: tuple[np.ndarray, np.ndarray]  # points (n, genes) and scores (n,)
+    parents: np.ndarray  # int, (population,): of which each solution was a copy, in the pool before; -1 at first
+    chosen_by: np.ndarray  # int, (population,): the objective function, of those before, that chose it; -1 if none did
+    repertoire: tuple[np.ndarray, np.ndarray] | None  # genomes (n, 16) and end points (n, 2), in the order of discovery
 
     @property
     def run(self) -> Run:
@@ -198,7 +214,12 @@ class Settings(NamedTuple):
     admitted: int
     scaling: int  # of components
     rating: int  # of objective functions
-    weighed: tuple[bool, ...]  # of each component, can any objective function ever weigh it?
+    patience: int  # generations
+    first_goal: int  # objective functions from this one on are goals
+    components: np.ndarray  # int64, (components,): which of WEIGHABLE they are
+    weighed: np.ndarray  # bool, (components,): can any objective function ever weigh it?
+    ways: np.ndarray  # int64, (height, width): the shortest way from each cell to the goal; (0, 0) if nobody asks
+    searches_at_random: bool
     breeding: Breeding  # of solutions
     objective_breeding: Breeding
 
@@ -216,17 +237,19 @@ class State(NamedTuple):
     archive: ArchiveArrays
     occupancy: np.ndarray  # int32: points of the archive in each cell, see `empty_occupancy`
     threshold: np.ndarray  # float64, (2,): of admission by threshold, see `admit`
-    objectives: np.ndarray  # float64, (objective functions, components)
+    paths: Paths
+    repertoire: Repertoire
+    objectives: np.ndarray  # float64, (objective functions, genes)
     objective_fitness: np.ndarray  # float64, (objective functions,)
+    idle: np.ndarray  # int64, (objective functions,): generations since anybody got nearer to a goal
     objective_archive: ArchiveArrays
     best_controller: np.ndarray  # float64, (16,)
-    best_coefficients: np.ndarray  # float64, (components,)
+    best_coefficients: np.ndarray  # float64, (genes,)
     number: np.ndarray  # int64, (1,): of the generation, -1 before the first
     best_distance: np.ndarray  # int64, (1,)
-    # working memory, whose contents mean nothing between generations:
-    offspring: np.ndarray
-    objective_offspring: np.ndarray
-    walk_space: WalkSpace
+    offspring: Offspring  # how the present solutions were bred; its genomes are working memory
+    objective_offspring: Offspring
+    walk_space: WalkSpace  # working memory
 
 
 def start_run(
@@ -241,15 +264,24 @@ def start_run(
     genomes = np.empty((parameters.population, WEIGHTS))
     draw_genomes(rng, -1.0, 1.0, genomes)
     if algorithm.objectives is None:
-        objectives = np.empty((parameters.objectives, len(COMPONENTS)))
+        objectives = np.empty((parameters.objectives, algorithm.genes))
         draw_genomes(rng, 0.0, 1.0, objectives)
     else:
-        objectives = np.array(algorithm.objectives, dtype=np.float64).reshape(-1, len(COMPONENTS))
+        objectives = np.array(algorithm.objectives, dtype=np.float64).reshape(-1, algorithm.genes)
     evolving = algorithm.rating != "none"
     if evolving and parameters.elites >= len(objectives):
         raise ValueError(
             f"elites must be fewer than the {len(objectives)} objective functions; got {parameters.elites}"
         )
+    components = np.array([WEIGHABLE.index(name) for name in algorithm.components])
+    n, m = len(genomes), len(objectives)
+    first_goal = {"weights": m, "goal": 0, "mixed": m // 2}[algorithm.kind]
+    weighed = np.array(
+        [bool(first_goal and (evolving or objectives[:first_goal, c].any())) for c in range(len(components))]
+    )
+    is_weighed = [which in components[weighed] for which in range(len(WEIGHABLE))]
+    follows_paths = is_weighed[PATH_RARITY] or algorithm.rating in ("discovery", "shuffled")
+    has_repertoire = algorithm.pool == "repertoire"
     rates = parameters.tournament, parameters.elites, parameters.crossover, parameters.mutation
     settings = Settings(
         maze=maze.arrays,
@@ -261,35 +293,56 @@ def start_run(
         admitted=parameters.admitted,
         scaling=SCALINGS.index(algorithm.scaling),
         rating=RATINGS.index(algorithm.rating),
-        weighed=tuple(bool(evolving or coefficients.any()) for coefficients in objectives.T),
-        breeding=Breeding(*rates, low=-1.0, high=1.0, judging=JUDGINGS.index(algorithm.judging)),
+        patience=parameters.patience,
+        first_goal=first_goal,
+        components=components,
+        weighed=weighed,
+        ways=_ways(maze) if is_weighed[WAY] else np.zeros((0, 0), dtype=np.int64),
+        searches_at_random=algorithm.is_random_search,
+        breeding=Breeding(
+            parameters.tournament,
+            0 if has_repertoire else parameters.elites,  # the repertoire has kept them
+            parameters.crossover,
+            parameters.mutation,
+            low=-1.0,
+            high=1.0,
+            judging=JUDGINGS.index(algorithm.judging),
+            pool=POOLS.index(algorithm.pool),
+        ),
         objective_breeding=Breeding(*rates, low=0.0, high=1.0),
     )
-    n, m = len(genomes), len(objectives)
-    components = np.zeros((len(COMPONENTS), n))
+    values = np.zeros((len(components), n))
     state = State(
         genomes=genomes,
         endpoints=np.zeros((n, 2), dtype=np.int64),
         distances=np.zeros(n, dtype=np.int64),
-        components=components,
-        scaled=components if settings.scaling == RAW else np.zeros_like(components),
+        components=values,
+        scaled=values if settings.scaling == RAW else np.zeros_like(values),
         fitness=np.zeros(n),
         winners=np.zeros(n, dtype=np.int64),
         archive=empty_archive(parameters.archive, 2),
         occupancy=empty_occupancy(maze.shape),
         threshold=np.array([parameters.threshold, 0.0]),
+        paths=empty_paths(n if follows_paths else 0, maze.shape, parameters.steps),
+        repertoire=empty_repertoire(maze.shape if has_repertoire else (0, 0), WEIGHTS),
         objectives=objectives,
-        objective_fitness=np.zeros(m),
-        objective_archive=empty_archive(parameters.archive, len(COMPONENTS)),
+        objective_fitness=np.full(m, -np.inf if algorithm.rating == "patience" else 0.0),
+        idle=np.zeros(m, dtype=np.int64),
+        objective_archive=empty_archive(parameters.archive, algorithm.genes),
         best_controller=np.zeros(WEIGHTS),
-        best_coefficients=np.zeros(len(COMPONENTS)),
+        best_coefficients=np.zeros(algorithm.genes),
         number=np.array([-1]),
         best_distance=np.array([np.iinfo(np.int64).max]),
-        offspring=np.empty_like(genomes),
-        objective_offspring=np.empty_like(objectives),
+        offspring=empty_offspring(n, WEIGHTS),
+        objective_offspring=empty_offspring(m, algorithm.genes)._replace(parents=np.arange(m)),
         walk_space=walk_space(maze.shape, parameters.steps),
     )
     return state, settings, rng
+
+
+@functools.lru_cache(maxsize=8)
+def _ways(maze: Maze) -> np.ndarray:
+    return ways_to_goal(maze)
 
 
 def seed_sequence(seed: Seed) -> np.random.SeedSequence:
@@ -320,6 +373,8 @@ def run_so_far(state: State, settings: Settings) -> Run:
 
 def step_through(state: State, settings: Settings, rng: np.random.Generator) -> Iterator[Generation]:
     judged = len(state.objectives) > 0
+    rated = settings.rating not in (UNRATED, REDRAWN)
+    novelty = next(iter(np.flatnonzero((settings.components == NOVELTY) & settings.weighed)), None)
     more = True
     while more:
         more = advance(state, settings, rng)
@@ -330,17 +385,17 @@ def step_through(state: State, settings: Settings, rng: np.random.Generator) -> 
             distances=state.distances.copy(),
             components=state.components.copy(),
             scaled=state.scaled.copy() if settings.scaling != RAW else None,
-            novelty=state.components[NOVELTY].copy() if settings.weighed[NOVELTY] else None,
+            novelty=state.components[novelty].copy() if novelty is not None else None,
             fitness=state.fitness.copy() if judged else None,
             objectives=state.objectives.copy(),
-            objective_fitness=state.objective_fitness.copy() if settings.rating != UNRATED else None,
+            objective_fitness=state.objective_fitness.copy() if rated else None,
             winners=state.winners.copy() if judged else None,
             archive=archived(state.archive),
             objective_archive=archived(state.objective_archive),
+            parents=state.offspring.parents.copy(),
+            chosen_by=state.offspring.chosen_by.copy(),
+            repertoire=known(state.repertoire) if settings.breeding.pool == REPERTOIRE else None,
         )
-
-
-GOAL, NOVELTY = COMPONENTS.index("1 / distance"), COMPONENTS.index("novelty")
 
 
 # Compiled functions
@@ -363,40 +418,56 @@ def advance(state: State, settings: Settings, rng: np.random.Generator) -> bool:
     state.number[0] += 1
     evaluate(state, settings, rng)
     keep_best(state)
-    if settings.rating == GENOTYPIC_NOVELTY:
-        # Algorithm 2: the fitness of an objective function is the novelty of its genome
-        score_points(state.objectives, state.objective_archive, settings.k, False, state.objective_fitness)
-    elif settings.rating != UNRATED:
-        judges = Judges(state.objectives, state.scaled)
-        correlations(judges, state.distances, settings.rating == SPEARMAN, state.objective_fitness)
+    if settings.breeding.pool == REPERTOIRE:
+        keep_latest(state.repertoire, state.genomes, state.endpoints)
+    rate(state, settings, rng)
     is_last = state.number[0] + 1 >= settings.generations
     # random search does not stop at a success: its result is the best of all solutions that it may draw
-    has_succeeded = len(state.objectives) > 0 and state.best_distance[0] <= settings.success_distance
+    has_succeeded = state.best_distance[0] <= settings.success_distance and not settings.searches_at_random
     return not (is_last or has_succeeded)
 
 
 @kernel
 def evaluate(state: State, settings: Settings, rng: np.random.Generator) -> None:
     """Steps 1 to 3: end points, components, fitness."""
-    walk_all(settings.maze, state.genomes, settings.steps, state.walk_space, state.endpoints)
+    walk_all(settings.maze, state.genomes, settings.steps, state.walk_space, state.endpoints, state.paths)
     goal_row, goal_column = settings.maze.goal
     for i in range(len(state.genomes)):
-        distance = abs(state.endpoints[i, 0] - goal_row) + abs(state.endpoints[i, 1] - goal_column)
-        state.distances[i] = distance
-        # at the goal itself 1 / distance is undefined: it counts as at distance 1/2
-        state.components[GOAL, i] = 1.0 / distance if distance > 0 else 2.0
-    if settings.weighed[NOVELTY]:
-        novelty, rule = state.components[NOVELTY], settings.admission
-        score_cells(state.endpoints, state.archive, state.occupancy, settings.k, rule, novelty)
-        if rule != LOWEST_REPLACED:
-            admitted = settings.admitted
-            admit(state.endpoints, novelty, state.archive, state.occupancy, rule, admitted, state.threshold, rng)
+        state.distances[i] = abs(state.endpoints[i, 0] - goal_row) + abs(state.endpoints[i, 1] - goal_column)
+    for c in range(len(settings.components)):
+        which, values = settings.components[c], state.components[c]
+        if which == CLOSENESS:
+            for i in range(len(values)):
+                values[i] = inverse(state.distances[i])
+        elif which == NOVELTY and settings.weighed[c]:
+            rule = settings.admission
+            score_cells(state.endpoints, state.archive, state.occupancy, settings.k, rule, values)
+            if rule != LOWEST_REPLACED:
+                admitted = settings.admitted
+                admit(state.endpoints, values, state.archive, state.occupancy, rule, admitted, state.threshold, rng)
+        elif which == PATH_RARITY and settings.weighed[c]:
+            score_paths(state.paths, values)
+        elif which == WAY and settings.weighed[c]:
+            for i in range(len(values)):
+                values[i] = inverse(settings.ways[state.endpoints[i, 0], state.endpoints[i, 1]])
     if settings.scaling != RAW:
         for c in range(len(state.components)):
             if settings.weighed[c]:
                 scale(state.components[c], settings.scaling, state.scaled[c])
     if len(state.objectives) > 0:
-        best_scores(Judges(state.objectives, state.scaled), state.fitness, state.winners)
+        best_scores(judges_of(state, settings), state.fitness, state.winners)
+
+
+@kernel
+def inverse(distance: int) -> float:
+    """1 / distance; at the goal itself that is undefined, and counts as at distance 1/2."""
+    return 1.0 / distance if distance > 0 else 2.0
+
+
+@kernel
+def judges_of(state: State, settings: Settings) -> Judges:
+    """The objective functions, and what they judge."""
+    return Judges(state.objectives, state.scaled, settings.first_goal, state.endpoints, settings.maze.walls.shape)
 
 
 @kernel
@@ -413,15 +484,46 @@ def keep_best(state: State) -> None:
 
 
 @kernel
+def rate(state: State, settings: Settings, rng: np.random.Generator) -> None:
+    """Step 5: the fitness of objective functions."""
+    rating, fitness = settings.rating, state.objective_fitness
+    if rating in (UNRATED, REDRAWN):
+        return
+    judges = judges_of(state, settings)
+    if rating == GENOTYPIC_NOVELTY:
+        # Algorithm 2: the fitness of an objective function is the novelty of its genome
+        score_points(state.objectives, state.objective_archive, settings.k, False, fitness)
+    elif rating in (MUTUALISM, COMPETITION):
+        highest_scores(judges, 1 if rating == MUTUALISM else -1, fitness)
+    elif rating in (DISCOVERY, SHUFFLED):
+        credit(state.paths.found, state.offspring.chosen_by, state.objective_offspring.parents, fitness)
+        if rating == SHUFFLED:
+            shuffle(fitness, rng)
+    elif rating == PATIENCE:
+        wait(judges, state.idle, fitness)
+    else:
+        correlations(judges, state.distances, rating == SPEARMAN, fitness)
+
+
+@kernel
 def breed_both(state: State, settings: Settings, rng: np.random.Generator) -> None:
     """Step 6: the next generation of solutions and, if they evolve, of objective functions."""
-    if len(state.objectives) == 0:
+    if settings.searches_at_random:
         draw_genomes(rng, settings.breeding.low, settings.breeding.high, state.genomes)
         return
-    judges = Judges(state.objectives, state.scaled)
-    breed(state.genomes, state.fitness, judges, settings.breeding, rng, state.offspring)
-    copy_genomes(state.offspring, state.genomes)
-    if settings.rating != UNRATED:
-        rates, offspring = settings.objective_breeding, state.objective_offspring
-        breed(state.objectives, state.objective_fitness, judges, rates, rng, offspring)
-        copy_genomes(state.objective_offspring, state.objectives)
+    judges, repertoire, rates = judges_of(state, settings), state.repertoire, settings.breeding
+    offspring = state.offspring
+    breed(state.genomes, state.fitness, judges, repertoire, rates, rng, offspring)
+    if rates.judging == BEST_SCORE and len(state.objectives) > 0:
+        for i in range(rates.elites, len(offspring.parents)):
+            offspring.chosen_by[i] = state.winners[offspring.parents[i]]
+    copy_genomes(offspring.genomes, state.genomes)
+    rating, rates = settings.rating, settings.objective_breeding
+    if rating == REDRAWN:
+        draw_genomes(rng, rates.low, rates.high, state.objectives)
+    elif rating == PATIENCE:
+        give_up(state.objectives, state.idle, state.objective_fitness, settings.patience, rng)
+    elif rating != UNRATED:
+        offspring = state.objective_offspring
+        breed(state.objectives, state.objective_fitness, judges, repertoire, rates, rng, offspring)
+        copy_genomes(offspring.genomes, state.objectives)

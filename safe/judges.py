@@ -32,17 +32,45 @@ import numpy as np
 
 from safe.kernel import kernel
 
+KINDS = ("weights", "goal", "mixed")  # of objective functions
 SCALINGS = ("raw", "maximum", "rank")  # of components
 RAW, MAXIMUM, RANK = range(len(SCALINGS))
-RATINGS = ("none", "genotypic novelty", "pearson", "spearman")  # of objective functions; with "none" they never change
-UNRATED, GENOTYPIC_NOVELTY, PEARSON, SPEARMAN = range(len(RATINGS))
+RATINGS = (  # of objective functions; with "none" they never change
+    "none",
+    "genotypic novelty",
+    "pearson",
+    "spearman",
+    "mutualism",
+    "competition",
+    "discovery",
+    "shuffled",
+    "patience",
+    "redrawn",
+)
+(
+    UNRATED,
+    GENOTYPIC_NOVELTY,
+    PEARSON,
+    SPEARMAN,
+    MUTUALISM,
+    COMPETITION,
+    DISCOVERY,
+    SHUFFLED,
+    PATIENCE,
+    REDRAWN,
+) = range(len(RATINGS))
+REACHED = 1  # cells from a goal, at which it has been reached
+DECAY = 0.9  # of what an objective function was rated for in the generation before, with "discovery"
 
 
 class Judges(NamedTuple):
     """Objective functions, and what they weigh."""
 
-    objectives: np.ndarray  # float64, (objective functions, components): the coefficients of each
+    objectives: np.ndarray  # float64, (objective functions, genes): coefficients, or a place
     components: np.ndarray  # float64, (components, solutions), scaled
+    first_goal: int = 2**31  # objective functions from this one on are goals
+    endpoints: np.ndarray = np.empty((0, 2), dtype=np.int64)  # (solutions, 2), row and column: what goals judge
+    shape: tuple[int, int] = (0, 0)  # of the maze in which goals are places
 
 
 # Compiled functions
@@ -78,7 +106,12 @@ def rank(values: np.ndarray, ranks: np.ndarray) -> None:
 @kernel
 def score_all(judges: Judges, j: int, scores: np.ndarray) -> None:
     """The scores that the j-th objective function gives all solutions, O_j(S_1), O_j(S_2), ... (Equation 1)."""
-    objectives, components = judges
+    objectives, components, endpoints = judges.objectives, judges.components, judges.endpoints
+    if j >= judges.first_goal:
+        row, column = place_of(judges, j)
+        for i in range(len(scores)):
+            scores[i] = -(abs(endpoints[i, 0] - row) + abs(endpoints[i, 1] - column))
+        return
     for i in range(len(scores)):
         scores[i] = 0.0
     for c in range(len(components)):
@@ -87,17 +120,56 @@ def score_all(judges: Judges, j: int, scores: np.ndarray) -> None:
 
 
 @kernel
+def score_one(judges: Judges, j: int, i: int) -> float:
+    """The score that the j-th objective function gives the i-th solution, O_j(S_i)."""
+    if j >= judges.first_goal:
+        row, column = place_of(judges, j)
+        return -float(abs(judges.endpoints[i, 0] - row) + abs(judges.endpoints[i, 1] - column))
+    score = 0.0
+    for c in range(len(judges.components)):
+        score += judges.objectives[j, c] * judges.components[c, i]
+    return score
+
+
+@kernel
+def place_of(judges: Judges, j: int) -> tuple[int, int]:
+    """The cell, row and column, that a goal's genome [a, b] in the unit square names."""
+    height, width = judges.shape
+    row, column = int(judges.objectives[j, 0] * height), int(judges.objectives[j, 1] * width)
+    return min(row, height - 1), min(column, width - 1)
+
+
+@kernel
+def favourite(judges: Judges, j: int, n: int) -> int:
+    """Of the first n solutions, the one that the j-th objective function scores highest, the first on a tie."""
+    found, best = -1, -np.inf
+    if j < judges.first_goal:
+        for i in range(n):
+            score = score_one(judges, j, i)
+            if score > best:
+                found, best = i, score
+        return found
+    endpoints, (row, column) = judges.endpoints, place_of(judges, j)
+    least = np.iinfo(np.int64).max
+    for i in range(n):
+        distance = abs(endpoints[i, 0] - row) + abs(endpoints[i, 1] - column)
+        if distance < least:
+            found, least = i, distance
+    return found
+
+
+@kernel
 def best_scores(judges: Judges, fitness: np.ndarray, winners: np.ndarray) -> None:
     """Algorithm 1: the fitness of S_i is max_j O_j(S_i), and the first such O_j is its winner.
 
-    Components are never negative, so an objective function whose coefficients are all at most those of an earlier one
-    cannot win. Leaving such dominated ones out leaves few of a random population.
+    Components are never negative, so a weighted sum whose coefficients are all at most those of an earlier one cannot
+    win. Leaving such dominated ones out leaves few of a random population.
     """
     objectives = judges.objectives
     contenders = np.empty(len(objectives), dtype=np.int64)
     m = 0
     for j in range(len(objectives)):
-        if not _is_dominated(objectives, j, contenders, m):
+        if j >= judges.first_goal or not _is_dominated(objectives, j, contenders, m):
             contenders[m] = j
             m += 1
     n = len(fitness)
@@ -162,3 +234,62 @@ def _deviations(values: np.ndarray, of_ranks: bool, deviations: np.ndarray) -> f
         deviations[i] -= mean
         squares += deviations[i] * deviations[i]
     return math.sqrt(squares)
+
+
+@kernel
+def highest_scores(judges: Judges, sign: int, fitness: np.ndarray) -> None:
+    """Of each objective function, the highest score that it gives, times a sign."""
+    scores = np.empty(judges.components.shape[1])
+    for j in range(len(fitness)):
+        score_all(judges, j, scores)
+        highest = -np.inf
+        for i in range(len(scores)):
+            highest = max(highest, scores[i])
+        fitness[j] = sign * highest
+
+
+@kernel
+def credit(found: np.ndarray, chosen_by: np.ndarray, parents: np.ndarray, fitness: np.ndarray) -> None:
+    """Rate objective functions by the cells that the solutions they have chosen found, from generation to generation.
+
+    `chosen_by` counts the objective functions of the generation before; `parents` says from which of these each of the
+    present ones comes, whose rating it inherits.
+    """
+    before = fitness.copy()
+    new = np.zeros(len(fitness), dtype=np.int64)
+    for i in range(len(found)):
+        if chosen_by[i] >= 0:
+            new[chosen_by[i]] += found[i]
+    for j in range(len(fitness)):
+        fitness[j] = DECAY * before[parents[j]] + new[parents[j]]
+
+
+@kernel
+def shuffle(values: np.ndarray, rng: np.random.Generator) -> None:
+    """Shuffle values, the last place first (Fisher and Yates)."""
+    for last in range(len(values) - 1, 0, -1):
+        drawn = int(rng.random() * (last + 1))
+        values[last], values[drawn] = values[drawn], values[last]
+
+
+@kernel
+def wait(judges: Judges, idle: np.ndarray, fitness: np.ndarray) -> None:
+    """Keep the highest score that each goal has given since it was drawn, and for how many generations it is so."""
+    highest = np.empty(len(fitness))
+    highest_scores(judges, 1, highest)
+    for j in range(len(fitness)):
+        idle[j] += 1
+        if highest[j] > fitness[j]:
+            fitness[j] = highest[j]
+            idle[j] = 0
+
+
+@kernel
+def give_up(goals: np.ndarray, idle: np.ndarray, fitness: np.ndarray, patience: int, rng: np.random.Generator) -> None:
+    """Draw a new goal in the place of each that has been reached, or to which nothing has come nearer for too long."""
+    for j in range(len(goals)):
+        if fitness[j] >= -REACHED or idle[j] >= patience:
+            for gene in range(goals.shape[1]):
+                goals[j, gene] = rng.random()
+            fitness[j] = -np.inf
+            idle[j] = 0

@@ -22,11 +22,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from safe.judges import Judges, score_all
+from safe.judges import Judges, favourite, score_all, score_one
 from safe.kernel import kernel
+from safe.repertoire import GENERATION, REPERTOIRE, Repertoire
 
-JUDGINGS = ("best score", "drawn judge")  # of solutions, when some of them are selected
-BEST_SCORE, DRAWN_JUDGE = range(len(JUDGINGS))
+JUDGINGS = ("best score", "drawn judge", "favourite")  # of solutions, when some of them are selected
+BEST_SCORE, DRAWN_JUDGE, FAVOURITE = range(len(JUDGINGS))
 
 
 class Breeding(NamedTuple):
@@ -39,6 +40,20 @@ class Breeding(NamedTuple):
     low: float
     high: float
     judging: int = BEST_SCORE
+    pool: int = GENERATION  # from which parents are taken
+
+
+class Offspring(NamedTuple):
+    """What breeding writes."""
+
+    genomes: np.ndarray  # float64, (individuals, genes)
+    parents: np.ndarray  # int64, (individuals,): of which each was a copy before crossover and mutation
+    chosen_by: np.ndarray  # int64, (individuals,): the objective function that was drawn to choose it, or -1
+
+
+def empty_offspring(individuals: int, genes: int) -> Offspring:
+    """Room for offspring; nobody has parents yet."""
+    return Offspring(np.zeros((individuals, genes)), np.full(individuals, -1), np.full(individuals, -1))
 
 
 # Compiled functions
@@ -76,20 +91,42 @@ def tournament(fitness: np.ndarray, size: int, rng: np.random.Generator) -> int:
 
 
 @kernel
-def judged_tournament(judges: Judges, n: int, size: int, rng: np.random.Generator) -> int:
-    """As `tournament` among n individuals, by the scores that one drawn objective function gives."""
+def judged_tournament(judges: Judges, n: int, size: int, rng: np.random.Generator) -> tuple[int, int]:
+    """As `tournament` among n individuals, by the scores that one drawn objective function gives: winner and judge."""
     drawn = np.empty(size, dtype=np.int64)
     for place in range(size):
         drawn[place] = draw_index(rng, n)
     judge = draw_index(rng, len(judges.objectives))
     winner, best = -1, -np.inf
     for rival in drawn:
-        score = 0.0
-        for c in range(len(judges.components)):  # Equation 1
-            score += judges.objectives[judge, c] * judges.components[c, rival]
+        score = score_one(judges, judge, rival)
         if score > best:
             winner, best = rival, score
-    return winner
+    return winner, judge
+
+
+@kernel
+def choose(
+    fitness: np.ndarray, judges: Judges, repertoire: Repertoire, rates: Breeding, rng: np.random.Generator
+) -> tuple[int, int, bool]:
+    """A parent's index, that of the objective function that was drawn to choose it (-1 if none was), and whether the
+    parent is in the repertoire."""
+    n, size = len(fitness), repertoire.size[0]
+    if rates.judging == BEST_SCORE:
+        if rates.pool == REPERTOIRE:  # nobody judges
+            return draw_index(rng, size), -1, True
+        return tournament(fitness, rates.tournament, rng), -1, False
+    known = Judges(judges.objectives, judges.components, judges.first_goal, repertoire.endpoints, judges.shape)
+    if rates.judging == DRAWN_JUDGE:
+        if rates.pool == REPERTOIRE:
+            parent, judge = judged_tournament(known, size, rates.tournament, rng)
+            return parent, judge, True
+        parent, judge = judged_tournament(judges, n, rates.tournament, rng)
+        return parent, judge, False
+    judge = draw_index(rng, len(judges.objectives))
+    if rates.pool == REPERTOIRE and judge >= judges.first_goal:
+        return favourite(known, judge, size), judge, True
+    return favourite(judges, judge, n), judge, False
 
 
 @kernel
@@ -112,37 +149,38 @@ def breed(
     genomes: np.ndarray,
     fitness: np.ndarray,
     judges: Judges,
+    repertoire: Repertoire,
     rates: Breeding,
     rng: np.random.Generator,
-    offspring: np.ndarray,
+    offspring: Offspring,
 ) -> None:
     """Write the next generation into `offspring`: first the elites, the fittest in front, then the pairs.
 
-    Only a drawn judge needs the `judges`.
+    Only drawn objective functions need the `judges`.
     """
+    bred, parents, chosen_by = offspring
     is_elite = np.zeros(len(genomes), dtype=np.bool_)
-    scores = np.empty(len(genomes)) if rates.judging == DRAWN_JUDGE else fitness
+    scores = np.empty(len(genomes)) if rates.judging != BEST_SCORE else fitness
     for place in range(rates.elites):
-        if rates.judging == DRAWN_JUDGE:
+        if rates.judging != BEST_SCORE:
             score_all(judges, draw_index(rng, len(judges.objectives)), scores)
         fittest = -1
         for i in range(len(genomes)):
             if not is_elite[i] and (fittest < 0 or scores[i] > scores[fittest]):
                 fittest = i
         is_elite[fittest] = True
-        _copy(genomes, fittest, offspring, place)
+        _copy(genomes, fittest, bred, place)
+        parents[place], chosen_by[place] = fittest, -1
     for place in range(rates.elites, len(genomes), 2):
         for child in range(place, place + 2):
-            if rates.judging == DRAWN_JUDGE:
-                parent = judged_tournament(judges, len(genomes), rates.tournament, rng)
-            else:
-                parent = tournament(fitness, rates.tournament, rng)
-            _copy(genomes, parent, offspring, child)
+            parent, judge, is_known = choose(fitness, judges, repertoire, rates, rng)
+            _copy(repertoire.genomes if is_known else genomes, parent, bred, child)
+            parents[child], chosen_by[child] = parent, judge
         if rng.random() < rates.crossover:
-            crossover(offspring[place], offspring[place + 1], rng)
+            crossover(bred[place], bred[place + 1], rng)
         for child in range(place, place + 2):
             if rng.random() < rates.mutation:
-                mutate(offspring[child], rates.low, rates.high, rng)
+                mutate(bred[child], rates.low, rates.high, rng)
 
 
 @kernel

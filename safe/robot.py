@@ -21,6 +21,7 @@ from safe import checks
 from safe.kernel import index, kernel
 from safe.maze import SENSORS, Maze, MazeArrays
 from safe.maze_files import load_maze
+from safe.paths import Paths, empty_paths, keep_path
 
 READINGS = len(SENSORS)  # s_1..s_8
 WEIGHTS = 2 * READINGS  # p_1..p_16
@@ -97,7 +98,7 @@ def endpoints(maze: Maze | str, controllers: np.ndarray, steps: int = STEPS) -> 
     controllers = checks.array("controllers", controllers, (None, WEIGHTS), -1, 1)
     steps = checks.integer("steps", steps, 0, checks.MOST)
     ends = np.empty((len(controllers), 2), dtype=np.int64)
-    walk_all(maze.arrays, controllers, steps, walk_space(maze.shape, steps), ends)
+    walk_all(maze.arrays, controllers, steps, walk_space(maze.shape, steps), ends, empty_paths(0, maze.shape, steps))
     return ends
 
 
@@ -193,12 +194,16 @@ def walk_all(
     steps: int,
     space: WalkSpace,
     ends: np.ndarray,
+    paths: Paths,
 ) -> None:
-    """Put the end of each controller's walk into `ends`."""
+    """Put the end of each controller's walk into `ends`, and count its path if there is room for it in `paths`."""
     trail, stood_at, clock = space
+    keeping = len(paths.lengths) > 0
     for i in range(len(controllers)):
         length, loop_start = walk(maze, controllers[i], steps, trail, stood_at, clock[0])
         clock[0] += steps + 1
         cell = cell_at_step(steps, length, loop_start)
         ends[i, 0] = trail[cell, 0]
         ends[i, 1] = trail[cell, 1]
+        if keeping:
+            keep_path(paths, i, trail, length, maze.walls.shape[1])

@@ -6,7 +6,9 @@ from safe import ALGORITHMS, Algorithm, Parameters
 
 
 def test_the_papers_algorithms():
-    assert {(algorithm.scaling, algorithm.judging) for algorithm in ALGORITHMS.values()} == {("raw", "best score")}
+    choices = "scaling", "judging", "kind", "components", "pool"
+    papers = "raw", "best score", "weights", ("1 / distance", "novelty"), "generation"
+    assert {tuple(getattr(algorithm, choice) for choice in choices) for algorithm in ALGORITHMS.values()} == {papers}
     assert {name: (a.objectives, a.rating) for name, a in ALGORITHMS.items()} == {
         "standard": (((1.0, 0.0),), "none"),
         "novelty": (((0.0, 1.0),), "none"),
@@ -32,6 +34,7 @@ def test_the_papers_parameters():
         "admission": "lowest replaced",
         "admitted": 5,
         "threshold": 6.0,
+        "patience": 10,
     }
 
 
@@ -41,10 +44,10 @@ def test_the_papers_parameters():
         ({"name": ""}, "name must be a text of printable characters; got ''"),
         (
             {"rating": "by taste"},
-            "rating must be one of 'none', 'genotypic novelty', 'pearson', 'spearman'; got 'by taste'",
+            "rating must be one of 'none', 'genotypic novelty', 'pearson', 'spearman', 'mutualism', .*; got 'by taste'",
         ),
         ({"scaling": "log"}, "scaling must be one of 'raw', 'maximum', 'rank'; got 'log'"),
-        ({"judging": None}, "judging must be one of 'best score', 'drawn judge'; got None"),
+        ({"judging": None}, "judging must be one of 'best score', 'drawn judge', 'favourite'; got None"),
         ({"objectives": [(1, 0, 0)]}, r"objectives must have the shape \(any, 2\); got shape \(1, 3\)"),
         ({"objectives": (1, 0)}, r"objectives must have the shape \(any, 2\); got shape \(2,\)"),
         ({"objectives": [(1, float("inf"))]}, "objectives must be finite"),
@@ -55,6 +58,36 @@ def test_the_papers_parameters():
         ),
         ({"objectives": [], "rating": "spearman"}, "objectives must be even in number if they evolve; got 0"),
         ({"objectives": 7}, "objectives must"),
+        ({"kind": "place"}, "kind must be one of 'weights', 'goal', 'mixed'; got 'place'"),
+        ({"pool": "archive"}, "pool must be one of 'generation', 'repertoire'; got 'archive'"),
+        ({"components": []}, "components must be some of '1 / distance', 'novelty', .*, each at most once; got \\[\\]"),
+        ({"components": "novelty"}, "components must be some of .*; got 'novelty'"),
+        ({"components": ["novelty"] * 2}, "components must be some of"),
+        ({"components": [["novelty"]]}, "components must be some of"),
+        ({"components": ["novelty", "1 / way", "path rarity"], "objectives": [(1, 0)]}, "shape .any, 3."),
+        ({"objectives": [(1, 2)], "kind": "goal"}, r"objectives must be finite and in \[0, 1\]; got 2.0"),
+        ({"objectives": [(1, 0)] * 3, "kind": "mixed"}, "objectives must be even in number if they are mixed; got 3"),
+        ({"objectives": [], "kind": "goal"}, "kind must be 'weights' without objective functions; got 'goal'"),
+        (
+            {"objectives": [], "judging": "favourite", "pool": "repertoire"},
+            "judging must be 'best score' without objective functions; got 'favourite'",
+        ),
+        ({"kind": "goal", "scaling": "rank"}, "scaling must be 'raw' for goals, which weigh nothing; got 'rank'"),
+        ({"kind": "goal", "components": ["novelty"]}, "components must be .* for goals, which weigh nothing"),
+        (
+            {"kind": "mixed", "rating": "discovery"},
+            "rating must be 'none' or 'redrawn' for a mixture with goals; got 'discovery'",
+        ),
+        ({"rating": "patience"}, "kind must be 'goal' for a rating by patience; got 'weights'"),
+        ({"pool": "repertoire"}, "kind must be 'goal' or 'mixed' to choose from the repertoire; got 'weights'"),
+        (
+            {"pool": "repertoire", "kind": "goal"},
+            "judging must be 'drawn judge' or 'favourite' to choose from the repertoire; got 'best score'",
+        ),
+        (
+            {"pool": "repertoire", "kind": "mixed", "judging": "drawn judge"},
+            "judging must be 'favourite' to choose from the repertoire; got 'drawn judge'",
+        ),
     ],
 )
 def test_bad_algorithms(arguments, complaint):

@@ -13,14 +13,17 @@ from safe.operators import (
     breed,
     crossover,
     draw_genomes,
+    empty_offspring,
     judged_tournament,
     mutate,
     tournament,
 )
+from safe.repertoire import empty_repertoire
 from tests.helpers import oracle
 
 MANY = 20_000
 NOBODY = Judges(np.empty((0, 2)), np.empty((2, 0)))
+NOTHING_KNOWN = empty_repertoire((0, 0), 0)
 
 
 def generator(seed):
@@ -28,10 +31,11 @@ def generator(seed):
 
 
 def bred(genomes, fitness, seed, judges=NOBODY, **rates):
-    offspring = np.empty_like(genomes)
+    offspring = empty_offspring(*genomes.shape)
     rates = {"tournament": 5, "elites": 2, "crossover": 0.8, "mutation": 0.4, "low": -1.0, "high": 1.0, **rates}
-    breed(genomes, np.asarray(fitness, dtype=np.float64), judges, Breeding(**rates), generator(seed), offspring)
-    return offspring
+    fitness = np.asarray(fitness, dtype=np.float64)
+    breed(genomes, fitness, judges, NOTHING_KNOWN, Breeding(**rates), generator(seed), offspring)
+    return offspring.genomes
 
 
 def assert_rate(count, n, probability):
@@ -46,7 +50,8 @@ def test_breeding_is_that_of_the_oracle(seed, half, size, elite_pairs, length):
     genomes = generator(seed).random((n, length))
     fitness = generator(seed + 1).integers(0, 4, n).astype(float)  # with ties
     offspring = bred(genomes, fitness, seed, tournament=size, elites=2 * elite_pairs)
-    assert offspring.tolist() == oracle.breed(genomes.tolist(), fitness, parameters, -1, 1, generator(seed))
+    expected, _ = oracle.breed(genomes.tolist(), fitness, parameters, -1, 1, generator(seed))
+    assert offspring.tolist() == expected
 
 
 @given(st.integers(0, 2**32), st.integers(1, 10), st.integers(1, 6), st.integers(0, 3), st.integers(1, 8))
@@ -57,15 +62,17 @@ def test_breeding_by_drawn_judges_is_that_of_the_oracle(seed, half, size, elite_
     components = generator(seed + 2).integers(0, 4, (2, n)).astype(float)  # with ties
     rates = {"tournament": size, "elites": 2 * elite_pairs, "judging": DRAWN_JUDGE}
     offspring = bred(genomes, np.full(n, np.nan), seed, Judges(coefficients, components), **rates)
-    panel = (coefficients @ components).tolist()
-    assert offspring.tolist() == oracle.breed(genomes.tolist(), None, parameters, -1, 1, generator(seed), panel)
+    panel = [(genomes.tolist(), scores) for scores in (coefficients @ components).tolist()]
+    expected, _ = oracle.breed(genomes.tolist(), None, parameters, -1, 1, generator(seed), panel)
+    assert offspring.tolist() == expected
 
 
 def test_a_single_judge_selects_as_fitness_does():
     fitness = generator(1).integers(0, 4, 30).astype(float)
     judge = Judges(np.array([[1.0]]), fitness[np.newaxis])
     for seed in range(100):
-        assert tournament(fitness, 5, generator(seed)) == judged_tournament(judge, 30, 5, generator(seed))
+        winner, by = judged_tournament(judge, 30, 5, generator(seed))
+        assert (winner, by) == (tournament(fitness, 5, generator(seed)), 0)
 
 
 def test_the_elite_passes_on_unchanged_and_first():

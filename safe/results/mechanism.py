@@ -15,8 +15,8 @@ from collections.abc import Iterable
 import numpy as np
 import pandas as pd
 
-from safe.algorithms import COEFFICIENTS
-from safe.evolution import GOAL, Generation
+from safe.algorithms import CLOSENESS, COEFFICIENTS
+from safe.evolution import Generation
 from safe.experiments.experiment import Experiment
 from safe.judges import Judges
 from safe.kernel import kernel
@@ -150,7 +150,7 @@ def _count(points: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
 
 
 def _components(generation: Generation) -> dict[str, float]:
-    closeness, novelty = generation.components[GOAL], generation.novelty
+    closeness, novelty = generation.components[CLOSENESS], generation.novelty
     measures = {"closeness": moments(closeness)[0], "closeness_max": closeness.max()}
     if novelty is not None:
         mean, sd = moments(novelty)
@@ -242,7 +242,7 @@ def hold_tournaments(
     n, size = len(fitness), drawn.shape[1]
     for t in range(len(drawn)):
         if is_judge_drawn:
-            winners[t] = judged_tournament(judges, n, size, rng)
+            winners[t], _ = judged_tournament(judges, n, size, rng)
         else:
             winners[t] = tournament(fitness, size, rng)
         for place in range(size):

@@ -102,8 +102,8 @@ def test_an_experiment_follows_from_its_content(experiment):
     [
         ({"rules": 99}, "content must be one that this version writes"),
         ({"weather": "fine"}, "content must be one"),
-        ({"algorithm": {"rating": "none", "objectives": [], "pool": "repertoire"}}, "content must be one"),
-        ({"algorithm": {"rating": "patience", "objectives": None}}, "rating must be one of"),
+        ({"algorithm": {"rating": "none", "objectives": [], "pool": "generation"}}, "content must be one"),
+        ({"algorithm": {"rating": "by taste", "objectives": None}}, "rating must be one of"),
         ({"algorithm": {"rating": "none", "objectives": None, "scaling": "raw"}}, "content must be one"),  # the paper's
         ({"algorithm": None}, "content must be one"),
         ({"parameters": {"weather": "fine"}}, "content must be one"),

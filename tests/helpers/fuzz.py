@@ -38,12 +38,14 @@ from hypothesis.errors import HypothesisWarning
 
 import safe
 from safe import Maze
+from safe.algorithms import WEIGHABLE
 from safe.companion import notebook
 from safe.evolution import Generation, Run
-from safe.judges import RATINGS, SCALINGS
+from safe.judges import KINDS, RATINGS, SCALINGS
 from safe.maze_files import MAZE_FOLDER, load_mazes, parse_maze
 from safe.novelty import ADMISSIONS, METRICS
 from safe.operators import JUDGINGS
+from safe.repertoire import POOLS
 from tests.helpers import maze_texts
 
 LONGEST_MESSAGE = 300
@@ -365,10 +367,11 @@ SMALL = {
     "admission": st.sampled_from([*ADMISSIONS, "none"]),
     "admitted": st.integers(0, 9),
     "threshold": st.floats(-1, 9) | st.integers(0, 9),
+    "patience": st.integers(0, 9),
 }
 PARAMETERS = st.fixed_dictionaries({}, optional={name: mostly(values) for name, values in SMALL.items()})
 WEIGHTS = st.floats(-1e100, 1e100) | st.sampled_from([0.0, 1.0, 0.5, 1e308])
-OBJECTIVES = st.none() | st.lists(st.lists(WEIGHTS, min_size=2, max_size=2), max_size=5)
+OBJECTIVES = st.none() | st.lists(st.lists(WEIGHTS | st.floats(0, 1), min_size=2, max_size=2), max_size=5)
 ALGORITHMS = st.fixed_dictionaries(
     {"name": mostly(st.just("mine"))},
     optional={
@@ -376,6 +379,9 @@ ALGORITHMS = st.fixed_dictionaries(
         "rating": mostly(st.sampled_from(RATINGS)),
         "scaling": mostly(st.sampled_from(SCALINGS)),
         "judging": mostly(st.sampled_from(JUDGINGS)),
+        "kind": mostly(st.sampled_from(KINDS)),
+        "components": mostly(st.lists(st.sampled_from(WEIGHABLE), max_size=4)),
+        "pool": mostly(st.sampled_from(POOLS)),
     },
 )
 SEEDS = mostly(st.integers(0) | st.lists(st.integers(-1), max_size=3) | st.just(np.random.SeedSequence(1)))
@@ -621,7 +627,7 @@ TARGETS = {
     "runs": Target(
         st.tuples(ALGORITHMS, SEEDS, PARAMETERS),
         try_run,
-        SETTINGS + "|name|objectives|rating|scaling|judging|seed|parameters",
+        SETTINGS + "|name|objectives|rating|scaling|judging|kind|components|pool|seed|parameters",
         13,
     ),
     "arguments": Target(

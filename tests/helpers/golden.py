@@ -32,7 +32,7 @@ def golden_runs():
 def golden_choices():
     """Runs with choices beyond the paper; ratings with drawn judges, since best scores hardly depend on the rating."""
     drawn = {"judging": "drawn judge"}
-    algorithms = [{"scaling": "maximum"}, {"scaling": "rank"}, drawn, *({"rating": r} | drawn for r in RATINGS[2:])]
+    algorithms = [{"scaling": "maximum"}, {"scaling": "rank"}, drawn, *({"rating": r} | drawn for r in RATINGS[2:4])]
     for algorithm, parameters in (
         *(
             ("novelty", parameters)
@@ -43,8 +43,26 @@ def golden_choices():
             {"name": "all", "rating": "spearman", "scaling": "rank", "judging": "drawn judge"},
             {"admission": "random", "admitted": 20, "archive": 100},
         ),
+        *(({"name": "mine"} | choice, {}) for choice in GOALS_AND_PATHS),
     ):
         yield {"algorithm": algorithm, "maze": "maze2", "seed": 8, "parameters": {"generations": 100} | parameters}
+
+
+THREE = {"components": ["1 / distance", "novelty", "path rarity"], "scaling": "rank", "judging": "drawn judge"}
+GOALS = {"kind": "goal", "judging": "favourite"}
+KNOWN = {"pool": "repertoire"}
+GOALS_AND_PATHS = (
+    {"objectives": [[1]], "components": ["path rarity"]},
+    {"objectives": [[1]], "components": ["1 / way"]},
+    THREE,
+    *(THREE | {"rating": rating} for rating in ("discovery", "shuffled", "redrawn")),
+    *(GOALS | {"rating": rating} for rating in ("none", "genotypic novelty", "mutualism", "competition", "patience")),
+    {"kind": "goal"},
+    {"objectives": []} | KNOWN,
+    GOALS | KNOWN,
+    GOALS | KNOWN | {"rating": "patience", "judging": "drawn judge"},
+    THREE | KNOWN | {"kind": "mixed", "rating": "redrawn", "judging": "favourite"},
+)
 
 
 def algorithm_of(algorithm):

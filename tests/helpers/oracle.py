@@ -5,6 +5,7 @@ Nothing here imports the package. A maze is a list of strings (`#` wall), a cont
 
 import math
 from fractions import Fraction
+from typing import NamedTuple
 
 
 def find(drawing, symbol):
@@ -230,13 +231,20 @@ def select(fitness, size, rng):
     return next(i for i in drawn if fitness[i] == best)
 
 
+def place(goal, height, width):
+    """The cell that a goal names."""
+    return min(int(goal[0] * height), height - 1), min(int(goal[1] * width), width - 1)
+
+
 def select_by_one(panel, size, rng):
+    """The winner of a tournament, and its judge."""
     drawn = [index(rng, len(panel[0])) for _ in range(size)]
-    scores = panel[index(rng, len(panel))]
-    return max(drawn, key=lambda i: scores[i])
+    judge = index(rng, len(panel))
+    return max(drawn, key=lambda i: panel[judge][i]), judge
 
 
 def favourites(panel, count, rng):
+    """The elites if judges are drawn."""
     found = []
     for _ in range(count):
         scores = panel[index(rng, len(panel))]
@@ -245,21 +253,38 @@ def favourites(panel, count, rng):
     return found
 
 
-def breed(genomes, fitness, parameters, low, high, rng, panel=None):
-    """With a panel, the scores that each objective function gives all genomes, tournaments have drawn judges."""
+def breed(genomes, fitness, parameters, low, high, rng, panel=None, judging="drawn judge", repertoire=None):
+    """The offspring, and where each comes from: its parent's index and the objective function that chose it, or None.
+
+    With a panel, objective functions choose as `judging` says: it holds, for each of them, the genomes from which it
+    chooses and the scores that it gives them. Without one but with a repertoire, {end point: genome}, nobody chooses.
+    """
 
     def parent():
-        if panel:
-            return select_by_one(panel, parameters.tournament, rng)
-        return select(fitness, parameters.tournament, rng)
+        if repertoire is not None and panel is None:
+            i = index(rng, len(repertoire))
+            return list(list(repertoire.values())[i]), i, None
+        if panel is None:
+            i, judge = select(fitness, parameters.tournament, rng), None
+        elif judging == "drawn judge":
+            i, judge = select_by_one([scores for _, scores in panel], parameters.tournament, rng)
+        else:
+            judge = index(rng, len(panel))
+            i = max(range(len(panel[judge][1])), key=lambda i: panel[judge][1][i])
+        among = panel[judge][0] if panel else genomes
+        return list(among[i]), i, judge
 
-    if panel:
-        elites = favourites(panel, parameters.elites, rng)
+    if repertoire is not None:
+        elites = []
+    elif panel:
+        elites = favourites([scores for _, scores in panel], parameters.elites, rng)
     else:
         elites = sorted(range(len(genomes)), key=lambda i: (-fitness[i], i))[: parameters.elites]
     offspring = [list(genomes[i]) for i in elites]
+    origins = [(i, None) for i in elites]
     while len(offspring) < len(genomes):
-        first, second = list(genomes[parent()]), list(genomes[parent()])
+        (first, *one), (second, *other) = parent(), parent()
+        origins += [tuple(one), tuple(other)]
         if rng.random() < parameters.crossover:
             cut = 1 + index(rng, len(first) - 1)
             first, second = first[:cut] + second[cut:], second[:cut] + first[cut:]
@@ -268,58 +293,163 @@ def breed(genomes, fitness, parameters, low, high, rng, panel=None):
                 gene = index(rng, len(child))
                 child[gene] = uniform(rng, low, high)
             offspring.append(child)
-    return offspring
+    return offspring, origins
+
+
+def shortest_ways(drawing):
+    """The length of the shortest way to the goal, by cell."""
+    goal = find(drawing, "G")
+    ways, border = {goal: 0}, [goal]
+    while border:
+        row, column = border.pop(0)
+        for cell in ((row + 1, column), (row - 1, column), (row, column + 1), (row, column - 1)):
+            if is_free(drawing, *cell) and cell not in ways:
+                ways[cell] = ways[row, column] + 1
+                border.append(cell)
+    return ways
+
+
+class Generation(NamedTuple):
+    genomes: list
+    endpoints: list
+    fitness: list  # empty if nobody judges
+    objectives: list
+    best: tuple  # so far: distance, genome, objective function
+    objective_fitness: list | None  # None if they are not rated
+    archive: Archive
+    origins: list  # the parent's index and that of the objective function that chose it, or None
+    repertoire: dict  # end point: genome
 
 
 def evolve(drawing, algorithm, parameters, rng):
     """A run of an algorithm, which has objective functions (None: drawn) and choices.
 
-    Yields, for every generation, its genomes, end points, fitness and objective functions, the best so far (distance,
-    genome, objective function), the fitness of objective functions (None: they do not evolve), and the archive.
+    Yields every Generation until a success.
     """
-    goal = find(drawing, "G")
+    height, width = len(drawing), len(drawing[0])
+    goal, ways = find(drawing, "G"), shortest_ways(drawing)
+    genes = {"weights": len(algorithm.components), "goal": 2, "mixed": max(2, len(algorithm.components))}[
+        algorithm.kind
+    ]
     solutions = [[uniform(rng, -1, 1) for _ in range(16)] for _ in range(parameters.population)]
     objectives = algorithm.objectives
     if objectives is None:
-        objectives = [[uniform(rng, 0, 1) for _ in range(2)] for _ in range(parameters.objectives)]
+        objectives = [[uniform(rng, 0, 1) for _ in range(genes)] for _ in range(parameters.objectives)]
+    first_goal = {"weights": len(objectives), "goal": 0, "mixed": len(objectives) // 2}[algorithm.kind]
     archive, objective_archive = Archive(parameters.archive), Archive(parameters.archive)
     threshold = Threshold(parameters.threshold)
-    rated = algorithm.rating != "none"
-    needs_novelty = rated or any(b for _, b in objectives)
+    rating = algorithm.rating
+    visits, repertoire = {}, {}
+    origins = [(None, None)] * len(solutions)
+    objective_fitness, objective_origins = [0.0] * len(objectives), [(j, None) for j in range(len(objectives))]
+    waits = [(-math.inf, 0)] * len(objectives)  # of each goal: its highest score, and for how long
     best = None
+
+    def scores_of_goal(goal, ends):
+        return [-taxicab(place(goal, height, width), end) for end in ends]
+
+    def is_weighed(c):
+        return bool(objectives[:first_goal]) and (rating != "none" or any(o[c] for o in objectives[:first_goal]))
+
+    weighed = [is_weighed(c) for c in range(len(algorithm.components))]
     for _ in range(parameters.generations):
-        ends = [path(drawing, solution, parameters.steps)[-1] for solution in solutions]
+        paths = [path(drawing, solution, parameters.steps) for solution in solutions]
+        ends = [cells[-1] for cells in paths]
         distances = [taxicab(end, goal) for end in ends]
-        nearness = [1 / distance if distance else 2.0 for distance in distances]
-        novelties = [0.0] * len(ends)
-        if needs_novelty:
-            offering = parameters.admission == "lowest replaced"
-            novelties = novelty(ends, archive, parameters.k, taxicab, offering)
-            if parameters.admission == "random":
-                admit_drawn(ends, novelties, archive, parameters.admitted, rng)
-            if parameters.admission == "threshold":
-                threshold.admit(ends, novelties, archive)
-            if parameters.admission == "rescored":
-                archive.rescore(ends, parameters.k, taxicab)
-            if parameters.admission in ("after scoring", "distinct", "rescored"):
-                admit_after_scoring(ends, novelties, archive, parameters.admission == "distinct")
-        components = list(zip(*(scale(values, algorithm.scaling) for values in (nearness, novelties)), strict=True))
-        panel = [[score(objective, of_one) for of_one in components] for objective in objectives]
+        found = []
+        for cells in paths:
+            distinct = list(dict.fromkeys(cells))
+            found.append(sum(cell not in visits for cell in distinct))
+            for cell in distinct:
+                visits[cell] = visits.get(cell, 0) + 1
+        components = []
+        for name, wanted in zip(algorithm.components, weighed, strict=True):
+            if name == "1 / distance":
+                values = [1 / distance if distance else 2.0 for distance in distances]
+            elif not wanted:
+                values = [0.0] * len(ends)
+            elif name == "1 / way":
+                values = [1 / ways[end] if ways[end] else 2.0 for end in ends]
+            elif name == "path rarity":
+                values = []
+                for cells in paths:
+                    total = 0.0
+                    for cell in dict.fromkeys(cells):
+                        total += 1 / math.sqrt(visits[cell])
+                    values.append(total)
+            else:
+                offering = parameters.admission == "lowest replaced"
+                values = novelty(ends, archive, parameters.k, taxicab, offering)
+                if parameters.admission == "random":
+                    admit_drawn(ends, values, archive, parameters.admitted, rng)
+                if parameters.admission == "threshold":
+                    threshold.admit(ends, values, archive)
+                if parameters.admission == "rescored":
+                    archive.rescore(ends, parameters.k, taxicab)
+                if parameters.admission in ("after scoring", "distinct", "rescored"):
+                    admit_after_scoring(ends, values, archive, parameters.admission == "distinct")
+            components.append(values)
+        weighing = list(zip(*(scale(values, algorithm.scaling) for values in components), strict=True))
+
+        panel = [[score(o[: len(components)], of_one) for of_one in weighing] for o in objectives[:first_goal]]
+        panel += [scores_of_goal(goal, ends) for goal in objectives[first_goal:]]
         fitness = [max(scores) for scores in zip(*panel, strict=True)]
         for i, distance in enumerate(distances):
             if best is None or distance < best[0]:
-                winner = next(j for j, scores in enumerate(panel) if scores[i] == fitness[i])
-                best = distance, list(solutions[i]), list(objectives[winner])
-        objective_fitness = None
-        if algorithm.rating == "genotypic novelty":
+                winner = next((objectives[j] for j in range(len(panel)) if panel[j][i] == fitness[i]), [])
+                best = distance, list(solutions[i]), list(winner)
+        for end, solution in zip(ends, solutions, strict=True):
+            repertoire[end] = list(solution)
+        if rating == "genotypic novelty":
             objective_fitness = novelty(objectives, objective_archive, parameters.k, euclidean)
-        elif rated:
-            correlate = {"pearson": pearson, "spearman": spearman}[algorithm.rating]
+        elif rating in ("pearson", "spearman"):
+            correlate = {"pearson": pearson, "spearman": spearman}[rating]
             objective_fitness = [correlate(scores, [-distance for distance in distances]) for scores in panel]
-        yield solutions, ends, fitness, objectives, best, objective_fitness, archive
+        elif rating == "mutualism":
+            objective_fitness = [max(scores) for scores in panel]
+        elif rating == "competition":
+            objective_fitness = [-max(scores) for scores in panel]
+        elif rating in ("discovery", "shuffled"):
+            earned = [sum(f for f, (_, by) in zip(found, origins, strict=True) if by == j) for j in range(len(panel))]
+            objective_fitness = [0.9 * objective_fitness[j] + earned[j] for j, _ in objective_origins]
+            for last in range(len(panel) - 1, 0, -1) if rating == "shuffled" else ():
+                j = index(rng, last + 1)
+                f = objective_fitness
+                f[last], f[j] = f[j], f[last]
+        elif rating == "patience":
+            for j, scores in enumerate(panel):
+                highest, idle = waits[j]
+                waits[j] = (max(scores), 0) if max(scores) > highest else (highest, idle + 1)
+            objective_fitness = [highest for highest, _ in waits]
+        is_rated = rating not in ("none", "redrawn")
+        rated = list(objective_fitness) if is_rated else None
+        yield Generation(solutions, ends, fitness, objectives, best, rated, archive, origins, repertoire)
         if best[0] <= parameters.success_distance:
             return
-        judges = panel if algorithm.judging == "drawn judge" else None
-        solutions = breed(solutions, fitness, parameters, -1, 1, rng, judges)
-        if rated:
-            objectives = breed(objectives, objective_fitness, parameters, 0, 1, rng)
+        has_repertoire = algorithm.pool == "repertoire"
+        judges = None
+        if algorithm.judging != "best score":
+            known = list(repertoire.values())
+            judges = [
+                (known, scores_of_goal(objectives[j], repertoire))
+                if has_repertoire and j >= first_goal
+                else (solutions, panel[j])
+                for j in range(len(panel))
+            ]
+        kept = repertoire if has_repertoire else None
+        winners = [next((j for j in range(len(panel)) if panel[j][i] == f), None) for i, f in enumerate(fitness)]
+        solutions, origins = breed(solutions, fitness, parameters, -1, 1, rng, judges, algorithm.judging, kept)
+        if algorithm.judging == "best score" and objectives:
+            origins = [
+                (i, None if n < parameters.elites else winners[i]) for n, (i, _) in enumerate(origins)
+            ]  # the winner of the parent's fitness has chosen it
+        if rating == "redrawn":
+            objectives = [[uniform(rng, 0, 1) for _ in range(genes)] for _ in objectives]
+        elif rating == "patience":
+            objectives = list(objectives)
+            for j, (highest, idle) in enumerate(waits):
+                if highest >= -1 or idle >= parameters.patience:
+                    objectives[j] = [uniform(rng, 0, 1) for _ in range(2)]
+                    waits[j] = -math.inf, 0
+        elif is_rated:
+            objectives, objective_origins = breed(objectives, objective_fitness, parameters, 0, 1, rng)

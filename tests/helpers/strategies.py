@@ -1,10 +1,14 @@
-"""Strategies of Hypothesis: mazes, controllers and points."""
+"""Strategies of Hypothesis: mazes, algorithms, controllers and points."""
 
 import hypothesis.extra.numpy as hnp
 import numpy as np
 from hypothesis import strategies as st
 
-from safe import Maze
+from safe import Algorithm, Maze
+from safe.algorithms import COMPONENTS, WEIGHABLE
+from safe.judges import KINDS, RATINGS, SCALINGS
+from safe.operators import JUDGINGS
+from safe.repertoire import POOLS
 
 
 @st.composite
@@ -18,6 +22,28 @@ def mazes(draw, longest=12):
     walls[start[0], min(start[1], goal[1]) : max(start[1], goal[1]) + 1] = False
     walls[min(start[0], goal[0]) : max(start[0], goal[0]) + 1, goal[1]] = False
     return Maze(walls, start, goal)
+
+
+@st.composite
+def algorithms(draw):
+    """Algorithms with any choices that go together."""
+    kind, pool = draw(st.sampled_from(KINDS)), draw(st.sampled_from(POOLS))
+    judging, scaling, rating = "best score", "raw", "none"
+    components = COMPONENTS
+    nobody = kind == "weights" and pool == "repertoire"  # is there to judge
+    if not nobody:
+        allowed = JUDGINGS if pool == "generation" else JUDGINGS[1:] if kind == "goal" else ["favourite"]
+        judging = draw(st.sampled_from(allowed))
+        ratings = {"weights": [r for r in RATINGS if r != "patience"], "goal": RATINGS, "mixed": ["none", "redrawn"]}
+        rating = draw(st.sampled_from(ratings[kind]))
+    if kind != "goal":
+        scaling = draw(st.sampled_from(SCALINGS))
+        components = draw(st.lists(st.sampled_from(WEIGHABLE), min_size=1, unique=True) | st.just(COMPONENTS))
+    genes = {"weights": len(components), "goal": 2, "mixed": max(2, len(components))}[kind]
+    values = st.sampled_from([-0.5, 0.0, 0.25, 1.0] if kind == "weights" else [0.0, 0.3, 0.99, 1.0])
+    given = st.lists(st.lists(values, min_size=genes, max_size=genes), min_size=4, max_size=4)
+    objectives = [] if nobody else draw(st.none() | given)
+    return Algorithm("mine", objectives, rating, scaling, judging, kind, components, pool)
 
 
 def controllers(count=None):
