@@ -54,7 +54,7 @@ export class Evolution {
     this.isRandomSearch = !this.isJudged && pool === "generation";
     this.isRated = rating !== "none" && rating !== "redrawn";
     this.areBred = isBredBy(rating);
-    if (this.areBred && elites >= judges) {
+    if (rating !== "none" && elites >= judges) {
       throw new InputError(`elites must be fewer than the ${judges} objective functions; got ${elites}`);
     }
     this.weighers = weighersOf(kind, judges); // objective functions that weigh components
