@@ -29,7 +29,7 @@ import {
 } from "./ratings.js";
 import { Repertoire } from "./repertoire.js";
 import { Walker, WEIGHTS } from "./robot.js";
-import { rowOf, rowsOf } from "./rows.js";
+import { rowOf } from "./rows.js";
 import { byChance, byDrawnJudge, byFavourite, byFitness, elitesOf, scoresOfDrawn } from "./selection.js";
 
 /** A run, to be advanced generation by generation. Matrices are Float64Arrays, row after row. */
@@ -52,8 +52,6 @@ export class Evolution {
     const judges = this.objectives.length / this.genes;
     this.isJudged = judges > 0;
     this.isRandomSearch = !this.isJudged && pool === "generation";
-    this.isRated = rating !== "none" && rating !== "redrawn";
-    this.areBred = isBredBy(rating);
     if (rating !== "none" && elites >= judges) {
       throw new InputError(`elites must be fewer than the ${judges} objective functions; got ${elites}`);
     }
@@ -72,7 +70,6 @@ export class Evolution {
     this.visits = isOfPaths(rating) || this.#isWeighed("path rarity") ? new Visits(maze, population) : null;
     this.repertoire = pool === "repertoire" ? new Repertoire(maze, WEIGHTS) : null;
     this.components = components.map(() => new Float64Array(population));
-    this.scaling = scaling;
     // what objective functions weigh
     this.scaled = scaling === "raw" ? this.components : components.map(() => new Float64Array(population));
     this.fitness = new Float64Array(population);
@@ -87,11 +84,9 @@ export class Evolution {
     this.number = -1; // of the generation
     this.best = { distance: Infinity, controller: null, coefficients: [], endpoint: null, goal: null };
     this.isOver = false;
-    this.brood = broodOf(population, WEIGHTS);
-    this.objectiveBrood = broodOf(judges, this.genes);
     this.parents = new Int32Array(population).fill(-1); // of whom each solution is a copy, before crossover
     this.chosenBy = this.parents.slice(); // the objective function, of the generation before, that chose the parent
-    this.objectiveParents = new Int32Array(judges);
+    this.objectiveParents = null; // likewise
     this.walker = new Walker(maze, steps);
   }
 
@@ -122,29 +117,6 @@ export class Evolution {
       controller: this.best.controller,
       coefficients: this.best.coefficients,
       evaluations: (this.number + 1) * this.parameters.population,
-    };
-  }
-
-  /** The generation, as plain arrays; as safe.Generation. */
-  generation() {
-    const listed = (values, isThere) => (isThere ? Array.from(values) : null);
-    return {
-      ...this.result(),
-      genomes: rowsOf(this.genomes, WEIGHTS),
-      endpoints: rowsOf(this.endpoints, 2),
-      distances: Array.from(this.distances),
-      components: this.components.map((values) => Array.from(values)),
-      scaled: this.scaling === "raw" ? null : this.scaled.map((values) => Array.from(values)),
-      novelty: listed(this.components[this.novelty], this.isNoveltyWeighed),
-      fitness: listed(this.fitness, this.isJudged),
-      objectives: rowsOf(this.objectives, this.genes),
-      objectiveFitness: listed(this.objectiveFitness, this.isRated),
-      winners: listed(this.winners, this.isJudged),
-      parents: Array.from(this.parents),
-      chosenBy: Array.from(this.chosenBy),
-      repertoire: this.repertoire?.listed() ?? null,
-      archive: this.archive.listed(),
-      objectiveArchive: this.objectiveArchive.listed(),
     };
   }
 
@@ -190,8 +162,9 @@ export class Evolution {
       visits?.add(i, walker.trail, walker.length);
     }
     this.algorithm.components.forEach((name, c) => this.#measure(name, this.weighed[c], this.components[c]));
-    if (this.scaling !== "raw") {
-      this.components.forEach((values, c) => this.weighed[c] && scale(values, this.scaling, this.scaled[c]));
+    const { scaling } = this.algorithm;
+    if (scaling !== "raw") {
+      this.components.forEach((values, c) => this.weighed[c] && scale(values, scaling, this.scaled[c]));
     }
     if (this.isJudged) bestScores(this.judges, this.fitness, this.winners);
   }
@@ -253,23 +226,19 @@ export class Evolution {
   /** The next generation of solutions and, unless they stay, of objective functions. */
   #breedBoth() {
     if (this.isRandomSearch) return drawGenomes(this.rng, -1, 1, this.genomes);
-    const { algorithm: { rating }, parameters, brood, objectiveBrood, rng } = this;
+    const { algorithm: { rating }, parameters, rng, objectives, objectiveFitness } = this;
     const { tournament, crossover, mutation, elites, patience } = parameters;
-    breed(this.genomes, this.#elites(), this.#selector(), { crossover, mutation, low: -1, high: 1 }, rng, brood);
-    if (this.areBred) {
-      const { objectives, objectiveFitness } = this, rates = { crossover, mutation, low: 0, high: 1 };
-      const best = elitesOf(objectiveFitness.length, elites, () => objectiveFitness);
+    const rates = { crossover, mutation, low: -1, high: 1 }, n = this.fitness.length;
+    const brood = breed(this.genomes, n, this.#elites(), this.#selector(), rates, rng);
+    if (isBredBy(rating)) {
+      const m = objectiveFitness.length, best = elitesOf(m, elites, () => objectiveFitness);
       const select = byFitness(objectives, objectiveFitness, null, tournament, rng);
-      breed(objectives, best, select, rates, rng, objectiveBrood);
-      [this.objectives, objectiveBrood.offspring] = [objectiveBrood.offspring, objectives];
-      this.objectiveParents = objectiveBrood.parents;
-    } else if (rating === "redrawn") drawGenomes(rng, 0, 1, this.objectives);
-    else if (rating === "patience") {
-      redrawGoals(this.objectives, this.objectiveFitness, this.idle, patience, rng);
-    }
-    [this.genomes, brood.offspring] = [brood.offspring, this.genomes];
-    this.parents = brood.parents;
-    this.chosenBy = brood.chosenBy;
+      const next = breed(objectives, m, best, select, { ...rates, low: 0 }, rng);
+      this.objectives = next.offspring;
+      this.objectiveParents = next.parents;
+    } else if (rating === "redrawn") drawGenomes(rng, 0, 1, objectives);
+    else if (rating === "patience") redrawGoals(objectives, objectiveFitness, this.idle, patience, rng);
+    Object.assign(this, { genomes: brood.offspring, parents: brood.parents, chosenBy: brood.chosenBy });
   }
 
   /** The solutions that pass on unchanged: none, if parents are taken from a repertoire. */
@@ -296,29 +265,9 @@ function nearness(distance) {
   return distance > 0 ? 1 / distance : 2;
 }
 
-function broodOf(count, length) {
-  return {
-    offspring: new Float64Array(count * length),
-    parents: new Int32Array(count),
-    chosenBy: new Int32Array(count),
-  };
-}
-
 /** One run, from its first generation to its end; as safe.evolve. */
 export function evolve(maze, algorithm, seed, parameters = {}) {
   const evolution = new Evolution(maze, algorithm, seed, parameters);
   while (evolution.advance());
   return evolution.result();
-}
-
-/** One run, generation by generation; as safe.generations. Arguments are checked at once, not at the first step. */
-export function generations(maze, algorithm, seed, parameters = {}) {
-  return eachGeneration(new Evolution(maze, algorithm, seed, parameters));
-}
-
-function* eachGeneration(evolution) {
-  while (!evolution.isOver) {
-    evolution.advance();
-    yield evolution.generation();
-  }
 }

@@ -15,7 +15,7 @@ import {
 } from "./algorithms.js";
 import { checkedInteger, MOST } from "./checks.js";
 import { labelled, make } from "./dom.js";
-import { makeSwatch, titleOf } from "./labels.js";
+import { makeSwatch, titleOf, wordOf } from "./labels.js";
 import { ADMISSIONS } from "./novelty.js";
 
 const TITLES = {
@@ -65,10 +65,6 @@ const OPTIONS = { // by the names that they have in the package
   mixed: "half weights, half goals",
   generation: "the generation (paper)",
   repertoire: "the latest robot of every cell reached",
-  "1 / distance": "closeness",
-  novelty: "novelty",
-  "path rarity": "rarity of the path",
-  "1 / way": "closeness on the way",
 };
 const HIDEABLE = ["kind", "pool"]; // choices that most algorithms do not have
 const EVEN_PARAMETERS = ["population", "objectives", "elites"];
@@ -239,7 +235,7 @@ function makeComponentsField(store, problem) {
   const set = () => {
     setChoice(store, "components", boxes.filter(({ checked }) => checked).map(({ value }) => value));
   };
-  const labels = boxes.map((box) => make("label", {}, box, OPTIONS[box.value]));
+  const labels = boxes.map((box) => make("label", {}, box, wordOf(box.value)));
   const field = make("fieldset", {}, make("legend", {}, TITLES.components), ...labels);
   const show = () => {
     const { components } = firstWith(store, "components");

@@ -1,16 +1,10 @@
 // The inspector: one robot of the generation, and how it came by its novelty and fitness.
 
 import { labelled, make, makeButton, makeControls, makeSelect, makeTableHead } from "./dom.js";
-import { titleOf } from "./labels.js";
+import { titleOf, wordOf } from "./labels.js";
 import { cellsText, listText, percentage, shortNumber } from "./text.js";
 
 const MOST_SUMMANDS = 30; // of a novelty that are written out
-const REWARDS = { // for what a robot is given that part of its fitness, and what the part is called
-  "1 / distance": ["for being near the goal", "goal"],
-  "novelty": ["for novelty", "novelty"],
-  "path rarity": ["for rare cells on its path", "rarity"],
-  "1 / way": ["for a short way to the goal", "way"],
-};
 const STANDING_HEAD = ["Measure", "This robot", "Largest", "Place"];
 
 export class Inspector {
@@ -86,38 +80,35 @@ function fitnessText(inspection) {
   const shares = sharesOf(inspection);
   const parts = terms.map(({ name, value }, c) => {
     const share = shares.length > 0 ? ` (${percentage(shares[c].share, 1)} %)` : "";
-    return `${shortNumber(value)} ${REWARDS[name][0]}${share}`;
+    return `${shortNumber(value)} for ${wordOf(name)}${share}`;
   });
   return `${given} with ${listText(coefficients)}: ${listText(parts)}.`;
 }
 
 /** Why a robot has no fitness. */
 function nobodyText({ reached }) {
-  return reached === null
-    ? "Nobody judges it: in random search there is nothing to select by."
-    : "Nobody judges it: any robot of the repertoire may become a parent, which holds the latest robot of each of the " +
-      `${reached} cells where one has ended.`;
+  return "Nobody judges it: " +
+    (reached === null
+      ? "in random search there is nothing to select by."
+      : `parents are drawn from the latest robots of the ${reached} cells reached so far.`);
 }
 
 /** Who decides: how much hangs on the objective function behind the fitness, and who selects parents. */
-function judgeText({ winner, wins }, { algorithm: { judging, kind }, latest }) {
-  const robots = latest.ends.length, judges = latest.weights.length + latest.goals.length;
+function judgeText({ winner, wins }, { algorithm: { judging, kind }, latest: { ends, weights, goals, reached } }) {
+  const robots = ends.length, judges = weights.length + goals.length;
   const given = `Objective function ${winner} gives ${wins === robots ? "all" : `${wins} of the`} ${robots} fitnesses`;
   const isDrawn = judging === "drawn judge";
   if (judging === "best score" || (isDrawn && judges === 1)) return `${given}, by which tournaments choose parents.`;
-  const from = latest.reached === null ? "" : ` of the repertoire, the latest of each of the ${latest.reached} cells ` +
-    `where one has ended${kind === "mixed" ? ", if that is a goal, and of this generation, if it weighs" : ""}`;
-  const how = isDrawn
-    ? `each tournament draws its judge from all ${judges} objective functions${from && `, among robots${from}`}.`
-    : `each is the favourite of one of the ${judges} objective functions, drawn by chance` +
-      `${from && `: the robot${from}, to which it gives its highest score`}.`;
-  return `${given}. But parents are not chosen by fitness: ${how}`;
+  const how = isDrawn ? "each tournament draws its judge from" : "each is the favourite of one, drawn from";
+  const pool = reached === null ? "" : `${kind === "mixed" ? "; goals choose" : ","} among the latest robots of the ` +
+    `${reached} cells reached so far`;
+  return `${given}. But parents are not chosen by fitness: ${how} all ${judges} objective functions${pool}.`;
 }
 
 /** What shares of a fitness are for what: { title, share }; none if there are no shares, or only one can be. */
 function sharesOf({ fitness, terms }) {
   if (!(fitness > 0) || terms.length < 2 || terms.some(({ value }) => value < 0)) return [];
-  return terms.map(({ name, value }) => ({ title: REWARDS[name][1], share: value / fitness }));
+  return terms.map(({ name, value }) => ({ title: wordOf(name), share: value / fitness }));
 }
 
 function makeSharesBar(shares) {
@@ -125,9 +116,7 @@ function makeSharesBar(shares) {
   return make(
     "div",
     { class: "shares", role: "img", "aria-label": `Its fitness: ${text}` },
-    ...shares.map(({ title, share }) =>
-      make("span", { class: title, style: `flex-grow: ${share}` }, share > 0.1 ? title : "")
-    ),
+    ...shares.map(({ title, share }) => make("span", { style: `flex-grow: ${share}` }, share > 0.1 ? title : "")),
   );
 }
 

@@ -11,10 +11,12 @@ const LABELS = {
   random: { title: "Random search", summary: "rewards nothing: new robots, drawn by chance" },
 };
 
-const WORDS = { // for choices in a title, if not their own
+const WORDS = { // for choices and components, if not their own
   none: "unevolved",
   goal: "goals",
   mixed: "weights and goals",
+  "1 / distance": "closeness",
+  "1 / way": "closeness on the way",
 };
 const ORDER = ["kind", "components", "rating", "scaling", "judging", "pool"]; // of choices in a title
 const SUMMARIES = { // by rating
@@ -27,12 +29,17 @@ const SUMMARIES = { // by rating
 };
 const LOOKS = ["mutualism", "competition", "discovery"]; // ratings that are shown in a colour of their own
 
+/** What a choice or a component is called in a sentence. */
+export function wordOf(choice) {
+  return WORDS[choice] ?? choice;
+}
+
 /** The title of an algorithm: that of one of ALGORITHMS, or its name, with the choices that depart. */
 export function titleOf(algorithm) {
   const base = baseOf(algorithm) ?? { ...PAPERS, rating: algorithm.rating };
   const departing = ORDER.filter((choice) => `${algorithm[choice]}` !== `${base[choice]}`);
   if (algorithm.objectives?.length === 0 && base.name && departing.join() === "pool") return "MAP-Elites";
-  const texts = departing.map((choice) => WORDS[algorithm[choice]] ?? [algorithm[choice]].flat().join(" + "));
+  const texts = departing.map((choice) => [algorithm[choice]].flat().map(wordOf).join(" + "));
   return (LABELS[base.name]?.title ?? algorithm.name) + (texts.length > 0 ? ` (${texts.join(", ")})` : "");
 }
 

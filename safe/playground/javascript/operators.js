@@ -14,13 +14,14 @@ export function drawGenomes(rng, low, high, genomes) {
   for (let gene = 0; gene < genomes.length; gene++) genomes[gene] = drawUniform(rng, low, high);
 }
 
-/** Put the next generation into a brood: the elites first, the fittest at the front, then the pairs.
+/** The next generation: the elites first, the fittest at the front, then the pairs.
  *
- * elites: the indices in `genomes` of those that pass on unchanged. select: gives a parent (see selection.js).
- * rates: { crossover, mutation, low and high, the range of a gene }. brood: { offspring, parents, chosenBy }: genomes,
- * and for each what each is a copy of, before crossover, and the objective function that chose that. */
-export function breed(genomes, elites, select, rates, rng, { offspring, parents, chosenBy }) {
-  const n = parents.length, length = offspring.length / n;
+ * elites: the indices in `genomes`, of n, that pass on unchanged. select: gives a parent (see selection.js). rates:
+ * { crossover, mutation, low and high, the range of a gene }. Returns { offspring, parents, chosenBy }: genomes, and of
+ * which parent each was a copy before crossover, and the objective function that chose that. */
+export function breed(genomes, n, elites, select, rates, rng) {
+  const offspring = new Float64Array(genomes.length), length = genomes.length / n;
+  const parents = new Int32Array(n), chosenBy = new Int32Array(n);
   const copy = (place, { genomes, parent, judge }) => {
     for (let gene = 0; gene < length; gene++) offspring[place * length + gene] = genomes[parent * length + gene];
     parents[place] = parent;
@@ -43,4 +44,5 @@ export function breed(genomes, elites, select, rates, rng, { offspring, parents,
       }
     }
   }
+  return { offspring, parents, chosenBy };
 }

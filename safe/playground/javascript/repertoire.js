@@ -1,7 +1,6 @@
 // The repertoire: of every cell where any robot has ended so far, the latest that did (see safe/repertoire.py).
 
 import { distanceTo } from "./judges.js";
-import { rowsOf } from "./rows.js";
 
 export class Repertoire {
   /** weights: of a controller. */
@@ -33,15 +32,6 @@ export class Repertoire {
     }
     this.cells.set(position, 2 * this.size);
     this.slots[cell] = this.size++;
-  }
-
-  /** Genomes and end points in the order in which cells were reached, as plain arrays. */
-  listed() {
-    const { size, weights } = this;
-    return {
-      genomes: rowsOf(this.genomes.subarray(0, size * weights), weights),
-      endpoints: rowsOf(this.cells.subarray(0, size * 2), 2),
-    };
   }
 
   /** The slot of the cell nearest to a place, the first reached of equals. */

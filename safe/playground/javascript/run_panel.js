@@ -1,19 +1,13 @@
 // One run on the watch: the maze with its generation, and how far it has come.
 
 import { make, makeButton } from "./dom.js";
-import { kindOf, makeSwatch, summaryOf, titleOf } from "./labels.js";
+import { kindOf, makeSwatch, summaryOf, titleOf, wordOf } from "./labels.js";
 import { distanceBetween } from "./maze.js";
 import { MazeView } from "./maze_view.js";
 import { cellsText, shortNumber } from "./text.js";
 import { WorkerClient } from "./worker_client.js";
 
 const MOST_LINKS = 100; // to neighbours that are drawn
-const WEIGHED = {
-  "1 / distance": "closeness",
-  "novelty": "novelty",
-  "path rarity": "rarity of its path",
-  "1 / way": "closeness on the way",
-};
 const SLICE = 200; // milliseconds of computing on the way to a generation, after which the panel says how far it is
 
 export class RunPanel {
@@ -125,7 +119,7 @@ function statusText({ result, isOver, goal }, { components, objectives, pool }) 
   // in random search generations mean nothing
   if (!isJudged && pool === "generation") return `${outcome}: ${best}, ${robots}`;
   const time = success ? `in generation ${generation}` : `in ${generation + 1} generations`;
-  const weighed = components.map((name, c) => `${shortNumber(coefficients[c] ?? 0)} · ${WEIGHED[name]}`).join(" + ");
+  const weighed = components.map((name, c) => `${shortNumber(coefficients[c] ?? 0)} · ${wordOf(name)}`).join(" + ");
   const judge = goal ? `how near it came to the place (${goal.row}, ${goal.column})` : weighed;
   return `${outcome} ${time}: ${best}, ${robots}${isJudged ? ` Its fitness: ${judge}.` : ""}`;
 }

@@ -2,9 +2,7 @@
 
 import { LineChart, ObjectiveSquare } from "./chart.js";
 import { make } from "./dom.js";
-import { kindOf, titleOf } from "./labels.js";
-
-const AXES = { "1 / distance": "closeness", "novelty": "novelty", "path rarity": "rarity", "1 / way": "short way" };
+import { kindOf, titleOf, wordOf } from "./labels.js";
 
 export class WatchCharts {
   constructor() {
@@ -31,7 +29,7 @@ export class WatchCharts {
       const winner = panel === selection?.panel ? selection.inspection.winner : null;
       return {
         ...looksOf(panel),
-        axes: panel.algorithm.components.slice(0, 2).map((name) => AXES[name]),
+        axes: panel.algorithm.components.slice(0, 2).map(wordOf),
         objectives: weights,
         winners: winners.filter(isWeight),
         marked: winner !== null && isWeight(winner) ? winner : null,

@@ -2,6 +2,7 @@
 
 import { Evolution, evolve } from "./evolution.js";
 import { countOf, distanceTo, placeOf } from "./judges.js";
+import { wordOf } from "./labels.js";
 import { WEIGHTS } from "./robot.js";
 import { rowOf, rowsOf } from "./rows.js";
 import { favouriteOf } from "./selection.js";
@@ -112,19 +113,12 @@ function inspect(evolution, i) {
   };
 }
 
-const MEASURES = { // what a component measures, and what is weighed of it
-  "1 / distance": ["closeness (1 / distance)", "closeness as weighed"],
-  "novelty": ["novelty", "novelty as weighed"],
-  "path rarity": ["rarity of the path", "rarity as weighed"],
-  "1 / way": ["closeness on the way (1 / way)", "closeness on the way as weighed"],
-};
-
 /** The i-th solution beside the others of the generation, by each measure that it has; equal ones share a place. */
 function standingsOf({ algorithm, components, scaled, weighed, fitness, isJudged }, i) {
   const isScaled = scaled !== components;
   const measures = algorithm.components.flatMap((name, c) => [
-    [MEASURES[name][0], components[c], weighed[c] || name === "1 / distance"],
-    [MEASURES[name][1], scaled[c], isScaled && weighed[c]],
+    [wordOf(name) + (name.startsWith("1") ? ` (${name})` : ""), components[c], weighed[c] || name === "1 / distance"],
+    [`${wordOf(name)} as weighed`, scaled[c], isScaled && weighed[c]],
   ]);
   measures.push(["fitness", fitness, isJudged]);
   return measures.filter(([, , isThere]) => isThere).map(([measure, values]) => ({
