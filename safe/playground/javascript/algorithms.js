@@ -106,10 +106,10 @@ function checkObjectives(algorithm) {
 function checkTogether(algorithm) {
   const { objectives, rating, kind, pool } = algorithm;
   const check = (name, allowed, reason) => {
-    if (!allowed.includes(algorithm[name])) {
-      const options = [allowed.slice(0, -1).map(shown).join(", "), shown(allowed.at(-1))].filter((text) => text);
-      throw new InputError(`${name} must be ${options.join(" or ")} ${reason}; got ${shown(algorithm[name])}`);
-    }
+    const value = algorithm[name], show = Array.isArray(value) ? shownTuple : shown;
+    if (allowed.some((one) => areEqual(one, value))) return;
+    const options = [allowed.slice(0, -1).map(show).join(", "), show(allowed.at(-1))].filter((text) => text);
+    throw new InputError(`${name} must be ${options.join(" or ")} ${reason}; got ${show(value)}`);
   };
   if (objectives?.length === 0) {
     check("kind", ["weights"], "without objective functions");
@@ -118,10 +118,7 @@ function checkTogether(algorithm) {
   }
   if (kind === "goal") {
     check("scaling", ["raw"], "for goals, which weigh nothing");
-    if (!areEqual(algorithm.components, COMPONENTS)) {
-      const [allowed, given] = [COMPONENTS, algorithm.components].map(shownTuple);
-      throw new InputError(`components must be ${allowed} for goals, which weigh nothing; got ${given}`);
-    }
+    check("components", [COMPONENTS], "for goals, which weigh nothing");
   }
   if (kind === "mixed") check("rating", ratingsOf(kind), "for a mixture with goals");
   if (rating === "patience") check("kind", ["goal"], "for a rating by patience");

@@ -148,6 +148,12 @@ export class Evolution {
     return { objectives, genes, weighers, components: scaled, endpoints, height, width };
   }
 
+  /** The place that won the i-th solution its fitness; null if no goal did. */
+  goalOf(i) {
+    const { isJudged, winners, weighers } = this;
+    return isJudged && winners[i] >= weighers ? placeOf(this.judges, winners[i]) : null;
+  }
+
   /** End points, components, fitness. */
   #evaluate() {
     const { genomes, endpoints, distances, walker, visits, parameters } = this;
@@ -201,7 +207,7 @@ export class Evolution {
           controller: rowOf(this.genomes, i, WEIGHTS),
           coefficients: this.isJudged ? rowOf(this.objectives, this.winners[i], this.genes) : [],
           endpoint: rowOf(this.endpoints, i, 2),
-          goal: this.isJudged && this.winners[i] >= this.weighers ? placeOf(this.judges, this.winners[i]) : null,
+          goal: this.goalOf(i),
         };
       }
     }

@@ -66,7 +66,6 @@ const OPTIONS = { // by the names that they have in the package
   generation: "the generation (paper)",
   repertoire: "the latest robot of every cell reached",
 };
-const HIDEABLE = ["kind", "pool"]; // choices that most algorithms do not have
 const EVEN_PARAMETERS = ["population", "objectives", "elites"];
 
 /** An input that shows a part of the state and sets it. If an entry is refused, the input shows the state again.
@@ -207,7 +206,7 @@ function makeParameterField(store, problem, name) {
   return labelled(TITLES[name] ?? name, input);
 }
 
-/** The field of a choice that algorithms have: it sets that of all selected ones. */
+/** The field of a choice that algorithms have: it sets that of all selected ones, and is hidden if none has it. */
 function makeChoiceField(store, problem, name) {
   const select = makeStateSelect(store, problem, CHOICES[name], {
     name: "algorithms",
@@ -217,10 +216,9 @@ function makeChoiceField(store, problem, name) {
   const field = labelled(TITLES[name], select);
   const show = () => {
     const having = store.state.algorithms.filter((algorithm) => hasChoice(algorithm, name));
-    const possible = new Set(having.flatMap((algorithm) => optionsOf(algorithm, name)));
-    for (const option of select.options) option.hidden = option.disabled = !possible.has(option.value);
-    select.disabled = having.length === 0;
-    field.hidden = select.disabled && HIDEABLE.includes(name);
+    const possible = having.flatMap((algorithm) => optionsOf(algorithm, name));
+    for (const option of select.options) option.disabled = !possible.includes(option.value);
+    field.hidden = having.length === 0;
   };
   follow(store, "algorithms", show);
   return field;

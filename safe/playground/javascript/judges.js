@@ -88,9 +88,9 @@ export function bestScores(judges, fitness, winners) {
   const width = components.length;
   for (let i = 0; i < fitness.length; i++) {
     fitness[i] = -Infinity;
-    for (let j = 0; j < weighers; j++) {
+    for (let j = 0, first = 0; j < weighers; j++, first += genes) {
       let score = 0;
-      for (let c = 0; c < width; c++) score += objectives[j * genes + c] * components[c][i]; // as scoreOne, but faster
+      for (let c = 0; c < width; c++) score += objectives[first + c] * components[c][i]; // as scoreOne, but faster
       if (score > fitness[i]) {
         fitness[i] = score;
         winners[i] = j;

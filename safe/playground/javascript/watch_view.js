@@ -18,10 +18,6 @@ const WATCH_LEGEND = [
   ["dashes", "how its end moved from generation to generation"],
   ["selected", "the robot looked at, and its nearest neighbours"],
 ];
-const GOALS_LEGEND = [
-  ["cross", "places that objective functions are, goals"],
-  ["tie", "from such a place to its favourite, the robot that ended nearest"],
-];
 const FRAME = 40; // milliseconds between two pictures, at the least
 const CALM_FRAME = 1000; // the same, if the reader asks for less motion
 
@@ -47,8 +43,8 @@ export class WatchView {
     this.charts = new WatchCharts();
     this.linking = make("input", { type: "checkbox", onchange: () => this.#draw() });
     this.goalsKey = makeBlock( // shown only with goals
-      makeLegend(GOALS_LEGEND),
-      make("label", { class: "choice" }, this.linking, "link places to their favourites"),
+      makeLegend([["cross", "places that goals name"]]),
+      make("label", { class: "choice" }, this.linking, "link places to their favourites, the robots nearest to them"),
     );
     this.goalsKey.hidden = true;
     this.inspector = new Inspector({

@@ -88,9 +88,8 @@ function lineOf(evolution) {
 /** How the i-th solution of the generation came by its novelty and fitness; null for what it does not have. */
 function inspect(evolution, i) {
   const controller = rowOf(evolution.genomes, i, WEIGHTS);
-  const { isJudged, isNoveltyWeighed, judges, algorithm } = evolution;
-  const winner = isJudged ? evolution.winners[i] : null, isGoal = winner >= judges.weighers;
-  const place = isJudged && isGoal ? placeOf(judges, winner) : null;
+  const { isJudged, isNoveltyWeighed, algorithm } = evolution;
+  const winner = isJudged ? evolution.winners[i] : null, place = evolution.goalOf(i);
   return {
     controller,
     endpoint: rowOf(evolution.endpoints, i, 2),
@@ -104,7 +103,7 @@ function inspect(evolution, i) {
     // of a goal: the cell, and how far it is away
     goal: place && { ...place, distance: distanceTo(place, evolution.endpoints, i) },
     // of weights: each component with its coefficient and what that makes of the fitness
-    terms: !isJudged || isGoal ? [] : algorithm.components.map((name, c) => {
+    terms: !isJudged || place ? [] : algorithm.components.map((name, c) => {
       const coefficient = evolution.objectives[winner * evolution.genes + c];
       return { name, coefficient, value: coefficient * evolution.scaled[c][i] };
     }),
