@@ -107,15 +107,13 @@ def judged_tournament(judges: Judges, n: int, size: int, rng: np.random.Generato
 
 @kernel
 def choose(
-    fitness: np.ndarray, judges: Judges, repertoire: Repertoire, rates: Breeding, rng: np.random.Generator
+    judges: Judges, n: int, repertoire: Repertoire, rates: Breeding, rng: np.random.Generator
 ) -> tuple[int, int, bool]:
-    """A parent's index, that of the objective function that was drawn to choose it (-1 if none was), and whether the
-    parent is in the repertoire."""
-    n, size = len(fitness), repertoire.size[0]
-    if rates.judging == BEST_SCORE:
-        if rates.pool == REPERTOIRE:  # nobody judges
-            return draw_index(rng, size), -1, True
-        return tournament(fitness, rates.tournament, rng), -1, False
+    """A parent by a choice beyond the paper: its index, among the n of the generation or in the repertoire; that of the
+    objective function that was drawn to choose it, or -1; and whether it is in the repertoire."""
+    size = repertoire.size[0]
+    if rates.judging == BEST_SCORE:  # nobody judges
+        return draw_index(rng, size), -1, True
     known = Judges(judges.objectives, judges.components, judges.first_goal, repertoire.endpoints, judges.shape)
     if rates.judging == DRAWN_JUDGE:
         if rates.pool == REPERTOIRE:
@@ -173,8 +171,14 @@ def breed(
         parents[place], chosen_by[place] = fittest, -1
     for place in range(rates.elites, len(genomes), 2):
         for child in range(place, place + 2):
-            parent, judge, is_known = choose(fitness, judges, repertoire, rates, rng)
-            _copy(repertoire.genomes if is_known else genomes, parent, bred, child)
+            if rates.judging == BEST_SCORE and rates.pool == GENERATION:
+                parent, judge, is_known = tournament(fitness, rates.tournament, rng), -1, False
+            else:
+                parent, judge, is_known = choose(judges, len(genomes), repertoire, rates, rng)
+            if is_known:
+                _copy(repertoire.genomes, parent, bred, child)
+            else:
+                _copy(genomes, parent, bred, child)
             parents[child], chosen_by[child] = parent, judge
         if rng.random() < rates.crossover:
             crossover(bred[place], bred[place + 1], rng)

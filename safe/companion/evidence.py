@@ -1,14 +1,14 @@
 """Evidence beyond the paper, recorded: runs for which a reader should not have to wait.
 
-    python -m safe.companion.evidence      makes everything in `safe.companion.designs`, and the record of it, again
+    python -m safe.companion.evidence      makes everything in COLLECTIONS, and the records of it, again
 
-The record is a folder of three files::
+A collection is what is designed and recorded together. Its record is a folder of three files::
 
     runs.csv.xz     how each run ended, experiment by experiment, the runs of each in order
     traces.csv.xz   what happened inside the traced runs: for each window of generations, the measures of their
-                    mechanism (see `safe.results.mechanism`)
-    record.json     the rules; the experiments, whose places in this list, from 0, are their numbers in the other files;
-                    what made their runs; and the SHA-256 of the other files
+                    mechanism (see `safe.results.mechanism` and `safe.results.exploration`)
+    record.json     the rules; the experiments, by the first digits of their digests, whose places in this list, from 0,
+                    are their numbers in the other files; what made their runs; and the SHA-256 of the other files
 
 Coefficients and measures have three significant digits, and everything else is exact. What follows from a column is
 left out: the evaluations from the generation, and a run's number from its place.
@@ -18,16 +18,19 @@ from __future__ import annotations
 
 import argparse
 import hashlib
+import importlib
 import io
 import json
 import lzma
 import os
 import sqlite3
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
 from contextlib import closing, nullcontext
+from dataclasses import dataclass
 from itertools import zip_longest
 from pathlib import Path
+from types import ModuleType
 from typing import NamedTuple
 
 import numpy as np
@@ -46,27 +49,45 @@ from safe.experiments.provenance import Origin, origin
 from safe.experiments.store import Store, sha256
 from safe.results import mechanism
 
-RECORD = Path(__file__).with_name("record")
+FOLDER = Path(__file__).with_name("record")
 RUNS, TRACES, SUMMARY = "runs.csv.xz", "traces.csv.xz", "record.json"
-COLUMNS = {
-    RUNS: ["experiment", "success", "generation", "distance", *COEFFICIENTS],
-    TRACES: ["experiment", "run", "window", *mechanism.MEASURES],
-}
 _DIGITS = "%.3g"  # of a fraction: more would make the record much larger
 _FILTERS = [{"id": lzma.FILTER_LZMA2, "preset": 9 | lzma.PRESET_EXTREME, "lc": 4, "pb": 0}]  # for text
 _AGAIN = "make evidence makes it again"
 
 
-class Entry(NamedTuple):
-    """What the record says of an experiment."""
+@dataclass(frozen=True)
+class Collection:
+    """What is designed and recorded together."""
 
-    digest: str  # of its content, which `safe.companion.designs` states
-    algorithm: str  # a name, like the next
-    maze: str
-    seed: int
+    name: str  # of the record's folder
+    designed: Callable[[], list[Recorded]]
+    coefficients: tuple[str, ...]  # that are recorded of a run
+    observer: ModuleType  # which observes traced runs: it has MEASURES, observe and by_window
+
+    @property
+    def folder(self) -> Path:
+        return FOLDER / self.name
+
+    @property
+    def columns(self) -> dict[str, list[str]]:
+        """The columns of the tables, by file."""
+        return {
+            RUNS: ["experiment", "success", "generation", "distance", *self.coefficients],
+            TRACES: ["experiment", "run", "window", *self.observer.MEASURES],
+        }
+
+
+COLLECTIONS = (Collection("designs", designs.everything, COEFFICIENTS, mechanism),)
+DIGITS = 16  # of a digest, which tell an experiment from all others
+
+
+class Entry(NamedTuple):
+    """What a record says of an experiment."""
+
+    digest: str  # the first digits of that of its content
     runs: int
     traced: int
-    population: int
     origins: list[int]  # of its runs and traces, by their places in the record's list
 
 
@@ -77,6 +98,11 @@ class Record(NamedTuple):
     experiments: list[Entry]
     origins: list[Origin]
     files: dict[str, str]  # SHA-256 by name
+
+    @property
+    def numbers(self) -> dict[str, int]:
+        """The numbers of the experiments, by the first digits of their digests."""
+        return {entry.digest: number for number, entry in enumerate(self.experiments)}
 
 
 # What notebooks read
@@ -104,23 +130,30 @@ def runs(
     ValueError
         If the record is damaged, or for the reasons that `safe.run` has.
     """
-    record = _record()
-    numbers, tables = _numbers(record), dict(iter(_table(RUNS, record).groupby("experiment")))
-    results = {}
-    for experiment in experiments:
-        number = numbers.get(experiment.digest)
-        if number is not None and record.experiments[number].runs >= experiment.runs:
+    wanted, found = list(experiments), {}
+    for collection in COLLECTIONS:
+        record = _record(collection)
+        numbers = {
+            e: n for e in wanted if (n := _number_of(e, record)) is not None and record.experiments[n].runs >= e.runs
+        }
+        if not numbers:
+            continue
+        tables = dict(iter(_table(collection, RUNS, record).groupby("experiment")))
+        for experiment, number in numbers.items():
             recorded = tables[number].head(experiment.runs).reset_index(drop=True).rename_axis("run").reset_index()
             recorded["evaluations"] = (recorded.generation + 1) * experiment.parameters.population
             # random search has no coefficients
-            results[experiment] = recorded.drop(columns="experiment").dropna(axis="columns", how="all")
-        elif resources is not None:
-            results[experiment] = run(experiment, **resources)
-    return results
+            found[experiment] = recorded.drop(columns="experiment").dropna(axis="columns", how="all")
+    if resources is not None:
+        found |= {experiment: run(experiment, **resources) for experiment in wanted if experiment not in found}
+    return {experiment: found[experiment] for experiment in wanted if experiment in found}
 
 
 def traces(
-    experiments: Sequence[Experiment], traced: int, resources: dict[str, object] | None = None
+    experiments: Sequence[Experiment],
+    traced: int,
+    resources: dict[str, object] | None = None,
+    observer: ModuleType = mechanism,
 ) -> dict[Experiment, pd.DataFrame]:
     """What happened inside the first runs of experiments.
 
@@ -134,6 +167,8 @@ def traces(
         Of how many runs at most.
     resources : dict, optional
         As in `runs`, for what is observed now. Without them nothing is.
+    observer : module
+        Of a collection, for what is observed now.
 
     Returns
     -------
@@ -146,77 +181,91 @@ def traces(
         If the record is damaged, or `traced` is no integer of at least 0.
     """
     traced = checks.integer("traced", traced, 0)
-    record = _record()
-    numbers, tables = _numbers(record), dict(iter(_table(TRACES, record).groupby("experiment")))
-    unknown = [experiment for experiment in experiments if experiment.digest not in numbers]
-    found = _observed(unknown, traced, **resources) if resources is not None else {}
-    for experiment in experiments:
-        number = numbers.get(experiment.digest)
-        if number in tables:
-            found[experiment] = tables[number][tables[number].run < min(traced, experiment.runs)]
+    unknown, found = list(experiments), {}
+    for collection in COLLECTIONS:
+        record = _record(collection)
+        numbers = {e: n for e in experiments if (n := _number_of(e, record)) is not None}
+        unknown = [experiment for experiment in unknown if experiment not in numbers]
+        if not any(record.experiments[number].traced for number in numbers.values()):
+            continue
+        tables = dict(iter(_table(collection, TRACES, record).groupby("experiment")))
+        for experiment, number in numbers.items():
+            if number in tables:
+                found[experiment] = tables[number][tables[number].run < min(traced, experiment.runs)]
+    if resources is not None:
+        found |= _observed(unknown, traced, observer, **resources)
     return {e: found[e].drop(columns="experiment").reset_index(drop=True) for e in experiments if len(found.get(e, ()))}
 
 
 def _observed(
-    experiments: Sequence[Experiment], traced: int, executor: Executor | None, cores: int | None, **_: object
+    experiments: Sequence[Experiment],
+    traced: int,
+    observer: ModuleType,
+    executor: Executor | None,
+    cores: int | None,
+    **_: object,
 ) -> dict[Experiment, pd.DataFrame]:
     """The traces of the first runs of these experiments, made now."""
+    collection = next(collection for collection in COLLECTIONS if collection.observer is observer)
     wanted = {(e.digest, number): e for e in experiments for number in range(min(traced, e.runs))}
     made: dict[Experiment, list[str]] = {}
-    for key, trace in sorted(_computed_traces(wanted, executor, cores), key=lambda one: one[0]):
+    for key, trace in sorted(_computed_traces(wanted, observer, executor, cores), key=lambda one: one[0]):
         made.setdefault(wanted[key], []).extend(_trace_lines(0, key[1], trace))
-    header = ",".join(COLUMNS[TRACES])
-    return {experiment: _parsed(TRACES, "\n".join([header, *lines])) for experiment, lines in made.items()}
+    header = ",".join(collection.columns[TRACES])
+    return {e: _parsed(collection, TRACES, "\n".join([header, *lines])) for e, lines in made.items()}
 
 
 def extent() -> pd.DataFrame:
     """How much is recorded, in a row: experiments, runs, traces, and evaluations of solutions."""
-    record = _record()
-    runs, populations = _table(RUNS, record), [entry.population for entry in record.experiments]
-    row = {
-        "experiments": len(record.experiments),
-        "runs": len(runs),
-        "traces": sum(entry.traced for entry in record.experiments),
-        "evaluations": int(((runs.generation + 1) * runs.experiment.map(dict(enumerate(populations)))).sum()),
-    }
-    return pd.DataFrame(row, index=["recorded"])
+    total = dict.fromkeys(("experiments", "runs", "traces", "evaluations"), 0)
+    for collection in COLLECTIONS:
+        record = _record(collection)
+        runs = _table(collection, RUNS, record)
+        populations = dict(enumerate(one.experiment.parameters.population for one in collection.designed()))
+        total["experiments"] += len(record.experiments)
+        total["runs"] += len(runs)
+        total["traces"] += sum(entry.traced for entry in record.experiments)
+        total["evaluations"] += int(((runs.generation + 1) * runs.experiment.map(populations)).sum())
+    return pd.DataFrame(total, index=["recorded"])
 
 
-def _record() -> Record:
+def _record(collection: Collection) -> Record:
     try:
-        rules, experiments, origins, files = Record(**json.loads((RECORD / SUMMARY).read_bytes()))
+        rules, experiments, origins, files = Record(**json.loads((collection.folder / SUMMARY).read_bytes()))
         return Record(rules, [Entry(*e) for e in experiments], [Origin(**o) for o in origins], dict(files))
     except (OSError, TypeError, ValueError) as error:
-        raise _damaged(SUMMARY, checks.reason(error)) from None
+        raise _damaged(collection, SUMMARY, checks.reason(error)) from None
 
 
-def _text(name: str, record: Record) -> str:
-    """The text of a file of the record, which must be the one that was written."""
+def _text(collection: Collection, name: str, record: Record) -> str:
+    """The text of a file of a record, which must be the one that was written."""
     try:
-        content = (RECORD / name).read_bytes()
+        content = (collection.folder / name).read_bytes()
     except OSError as error:
-        raise _damaged(name, checks.reason(error)) from None
+        raise _damaged(collection, name, checks.reason(error)) from None
     if hashlib.sha256(content).hexdigest() != record.files.get(name):
-        raise _damaged(name, f"its SHA-256 is not the one in {SUMMARY}")
+        raise _damaged(collection, name, f"its SHA-256 is not the one in {SUMMARY}")
     return lzma.decompress(content).decode()
 
 
-def _table(name: str, record: Record) -> pd.DataFrame:
-    return _parsed(name, _text(name, record))
+def _table(collection: Collection, name: str, record: Record) -> pd.DataFrame:
+    return _parsed(collection, name, _text(collection, name, record))
 
 
-def _parsed(name: str, text: str) -> pd.DataFrame:
-    fractions = dict.fromkeys({*COLUMNS[name]} & {*COEFFICIENTS, *mechanism.MEASURES}, float)
+def _parsed(collection: Collection, name: str, text: str) -> pd.DataFrame:
+    exact = ["experiment", "run", "window", "success", "generation", "distance"]
+    fractions = dict.fromkeys([column for column in collection.columns[name] if column not in exact], float)
     return pd.read_csv(io.StringIO(text), dtype=fractions)
 
 
-def _numbers(record: Record) -> dict[str, int]:
-    """The numbers of the recorded experiments, by their digests."""
-    return {entry.digest: number for number, entry in enumerate(record.experiments)}
+def _number_of(experiment: Experiment, record: Record) -> int | None:
+    """The number of an experiment in a record; None if it is not recorded."""
+    return record.numbers.get(experiment.digest[:DIGITS])
 
 
-def _damaged(name: str, reason: str) -> ValueError:
-    return ValueError(f"record must hold what was written to it; got {str(RECORD / name)!r} ({reason}): {_AGAIN}")
+def _damaged(collection: Collection, name: str, reason: str) -> ValueError:
+    path = str(collection.folder / name)
+    return ValueError(f"record must hold what was written to it; got {path!r} ({reason}): {_AGAIN}")
 
 
 # Making it
@@ -225,14 +274,21 @@ def _damaged(name: str, reason: str) -> ValueError:
 def make(
     store: str | os.PathLike, executor: Executor | None = None, cores: int | None = None, progress: bool = True
 ) -> None:
-    """Make all runs and traces of `designs.everything()`, and the record of them.
+    """Make all runs and traces of all collections, and the records of them.
 
     Runs are kept in the store, and traces in a file beside it, as soon as they come back. So an interrupted making
     continues where it stopped. Arguments and errors are those of `safe.run`.
     """
-    designed = designs.everything()
+    for collection in COLLECTIONS:
+        _make(collection, store, executor, cores, progress)
+
+
+def _make(
+    collection: Collection, store: str | os.PathLike, executor: Executor | None, cores: int | None, progress: bool
+) -> None:
+    designed = collection.designed()
     tables = {r.experiment: run(r.experiment, store, executor, progress, cores) for r in designed}
-    kept = _made_traces(designed, Path(store), executor, cores, progress)
+    kept = _made_traces(collection.observer, designed, Path(store), executor, cores, progress)
     origins: dict[Origin, int] = {}
     entries, lines = [], []
     with Store.for_reading(store) as results:
@@ -242,27 +298,17 @@ def make(
             batches = {kept_run.batch for kept_run in results.runs(stored, experiment.runs)}
             mine = [kept[experiment.digest, run_number] for run_number in range(recorded.traced)]
             made_by = [results.origin_of(batch) for batch in sorted(batches)] + [trace.origin for trace in mine]
-            entries.append(
-                Entry(
-                    experiment.digest,
-                    experiment.algorithm.name,
-                    experiment.maze.name,
-                    experiment.seed,
-                    experiment.runs,
-                    recorded.traced,
-                    experiment.parameters.population,
-                    sorted({origins.setdefault(o._replace(time=None), len(origins)) for o in made_by}),
-                )
-            )
+            places = sorted({origins.setdefault(o._replace(time=None), len(origins)) for o in made_by})
+            entries.append(Entry(experiment.digest[:DIGITS], experiment.runs, recorded.traced, places))
             for run_number, trace in enumerate(mine):
                 lines += _trace_lines(number, run_number, trace)
-    ended = [line for number, table in enumerate(tables.values()) for line in _run_lines(number, table)]
-    _write(entries, list(origins), {RUNS: ended, TRACES: lines})
+    ended = [line for number, table in enumerate(tables.values()) for line in _run_lines(collection, number, table)]
+    _write(collection, entries, list(origins), {RUNS: ended, TRACES: lines})
 
 
-def _run_lines(number: int, table: pd.DataFrame) -> list[str]:
+def _run_lines(collection: Collection, number: int, table: pd.DataFrame) -> list[str]:
     """How these runs of an experiment ended, as lines of the record."""
-    return _csv(table.assign(experiment=number).reindex(columns=COLUMNS[RUNS]).set_index("experiment"))
+    return _csv(table.assign(experiment=number).reindex(columns=collection.columns[RUNS]).set_index("experiment"))
 
 
 def _trace_lines(number: int, run_number: int, trace: Trace) -> list[str]:
@@ -274,18 +320,20 @@ def _csv(table: pd.DataFrame) -> list[str]:
     return table.to_csv(header=False, float_format=_DIGITS, lineterminator="\n").splitlines()
 
 
-def _write(entries: Sequence[Entry], origins: Sequence[Origin], lines: dict[str, Sequence[str]]) -> None:
-    """Write the record; the same content always gives the same bytes."""
-    RECORD.mkdir(exist_ok=True)
+def _write(
+    collection: Collection, entries: Sequence[Entry], origins: Sequence[Origin], lines: dict[str, Sequence[str]]
+) -> None:
+    """Write a record; the same content always gives the same bytes."""
+    collection.folder.mkdir(parents=True, exist_ok=True)
     files = {}
     for name, rows in lines.items():
-        text = "\n".join([",".join(COLUMNS[name]), *rows, ""])
+        text = "\n".join([",".join(collection.columns[name]), *rows, ""])
         content = lzma.compress(text.encode(), filters=_FILTERS)
-        (RECORD / name).write_bytes(content)
+        (collection.folder / name).write_bytes(content)
         files[name] = hashlib.sha256(content).hexdigest()
     record = Record(RULES, list(entries), [o._asdict() for o in origins], files)
     parts = [f"{json.dumps(name)}: {_lines(value)}" for name, value in record._asdict().items()]
-    (RECORD / SUMMARY).write_text("{" + ",\n".join(parts) + "}\n", encoding="utf-8", newline="\n")
+    (collection.folder / SUMMARY).write_text("{" + ",\n".join(parts) + "}\n", encoding="utf-8", newline="\n")
 
 
 def _lines(value: object) -> str:
@@ -304,18 +352,24 @@ class Trace(NamedTuple):
     lines: list[str]  # one for each window: its first generation, then the measures
 
 
-def make_trace(experiment: Experiment, run_number: int) -> Trace:
-    """Make a run again and observe it, wherever the executor does so."""
-    observed = mechanism.observe(experiment, experiment.replay(run_number))
-    return Trace(RULES, origin(), _csv(mechanism.by_window(observed)[[*mechanism.MEASURES]]))
+def make_trace(observer: str, experiment: Experiment, run_number: int) -> Trace:
+    """Make a run again and let a module with this name observe it, wherever the executor does so."""
+    module = importlib.import_module(observer)
+    observed = module.observe(experiment, experiment.replay(run_number))
+    return Trace(RULES, origin(), _csv(module.by_window(observed)[[*module.MEASURES]]))
 
 
 def _made_traces(
-    designed: Sequence[Recorded], store: Path, executor: Executor | None, cores: int | None, progress: bool
+    observer: ModuleType,
+    designed: Sequence[Recorded],
+    store: Path,
+    executor: Executor | None,
+    cores: int | None,
+    progress: bool,
 ) -> dict[TraceKey, Trace]:
     """All traces: those in the file beside the store, and the missing ones, which are computed now and kept there."""
     wanted = {(r.experiment.digest, number): r.experiment for r in designed for number in range(r.traced)}
-    measured_by = sha256(Path(mechanism.__file__).read_text(encoding="utf-8"))  # other measures are never mixed in
+    measured_by = sha256(Path(observer.__file__).read_text(encoding="utf-8"))  # other measures are never mixed in
     file = store.with_name(f"{store.stem}-traces.sqlite")
     with closing(sqlite3.connect(file, timeout=60, isolation_level=None)) as kept:
         kept.execute(
@@ -327,7 +381,7 @@ def _made_traces(
         missing = {key: experiment for key, experiment in wanted.items() if key not in traces}
         with (
             bar("traces", progress, total=len(wanted), initial=len(wanted) - len(missing), unit="trace") as shown,
-            closing(_computed_traces(missing, executor, cores)) as computed,
+            closing(_computed_traces(missing, observer, executor, cores)) as computed,
         ):
             for key, trace in computed:
                 kept.execute("INSERT OR IGNORE INTO traces VALUES (?, ?, ?, ?)", (measured_by, *key, json.dumps(trace)))
@@ -337,11 +391,13 @@ def _made_traces(
 
 
 def _computed_traces(
-    wanted: dict[TraceKey, Experiment], executor: Executor | None, cores: int | None
+    wanted: dict[TraceKey, Experiment], observer: ModuleType, executor: Executor | None, cores: int | None
 ) -> Iterator[tuple[TraceKey, Trace]]:
     """Traces as they come back. If this is closed earlier, those that have not begun are cancelled."""
     with nullcontext(executor) if executor is not None else ThreadPoolExecutor(cores or available_cores()) as pool:
-        futures = {pool.submit(make_trace, experiment, key[1]): key for key, experiment in wanted.items()}
+        futures = {
+            pool.submit(make_trace, observer.__name__, experiment, key[1]): key for key, experiment in wanted.items()
+        }
         try:
             for future in as_completed(futures):
                 trace = future.result()
@@ -367,7 +423,7 @@ def verify(sample: int = 5, traces: int = 1, seed: int | None = None) -> tuple[i
     Parameters
     ----------
     sample, traces : int
-        How many runs and how many traces, drawn at random; all if there are no more.
+        How many runs and how many traces of each collection, drawn at random; all if there are no more.
     seed : int, optional
         The seed of the draw; by default every draw differs.
 
@@ -379,28 +435,34 @@ def verify(sample: int = 5, traces: int = 1, seed: int | None = None) -> tuple[i
     Raises
     ------
     ValueError
-        If the record is damaged, follows other rules, holds other experiments than those of `designs.everything()`, or
-        differs from what they make; if an argument is no integer in range.
+        If a record is damaged, follows other rules, holds other experiments than those of its collection, or differs
+        from what they make; if an argument is no integer in range.
     """
     sample, traces = checks.integer("sample", sample, 0), checks.integer("traces", traces, 0)
     draw = np.random.default_rng(None if seed is None else checks.integer("seed", seed, 0))
-    record, designed = _record(), designs.everything()
+    counts = [_verify(collection, sample, traces, draw) for collection in COLLECTIONS]
+    return sum(runs for runs, _ in counts), sum(traces for _, traces in counts)
+
+
+def _verify(collection: Collection, sample: int, traces: int, draw: np.random.Generator) -> tuple[int, int]:
+    record, designed = _record(collection), collection.designed()
     _check_design(record, designed)
-    (_, *ended), (header, *traced) = (_text(name, record).splitlines() for name in (RUNS, TRACES))
-    if header != ",".join(COLUMNS[TRACES]):
+    (_, *ended), (header, *traced) = (_text(collection, name, record).splitlines() for name in (RUNS, TRACES))
+    if header != ",".join(collection.columns[TRACES]):
         raise ValueError(f"record must hold the measures of this version; got {checks.shown(header)}: {_AGAIN}")
 
     drawn_runs = _drawn(draw, sample, [entry.runs for entry in record.experiments])
     for number, i in drawn_runs:
         e, place = designed[number].experiment, sum(entry.runs for entry in record.experiments[:number]) + i
         remade = evolve(e.maze, e.algorithm, e.seed_sequence(i), e.parameters)
-        lines = _run_lines(number, pd.DataFrame([row_of(remade)]))
-        _compare(RUNS, [ended[place]], lines, record, number, i)
+        lines = _run_lines(collection, number, pd.DataFrame([row_of(remade)]))
+        _compare(collection, RUNS, [ended[place]], lines, e, i)
     drawn_traces = _drawn(draw, traces, [entry.traced for entry in record.experiments])
     for number, i in drawn_traces:
         recorded = [line for line in traced if line.startswith(f"{number},{i},")]
-        lines = _trace_lines(number, i, make_trace(designed[number].experiment, i))
-        _compare(TRACES, recorded, lines, record, number, i)
+        e = designed[number].experiment
+        lines = _trace_lines(number, i, make_trace(collection.observer.__name__, e, i))
+        _compare(collection, TRACES, recorded, lines, e, i)
     return len(drawn_runs), len(drawn_traces)
 
 
@@ -415,34 +477,43 @@ def _check_design(record: Record, designed: Sequence[Recorded]) -> None:
     if record.rules != RULES:
         raise ValueError(f"record must follow the rules {RULES} of this version; got {record.rules}: {_AGAIN}")
     recorded = [(entry.digest, entry.runs, entry.traced) for entry in record.experiments]
-    wanted = [(design.experiment.digest, design.experiment.runs, design.traced) for design in designed]
+    wanted = [(design.experiment.digest[:DIGITS], design.experiment.runs, design.traced) for design in designed]
     if recorded != wanted:
         first = next(n for n, (one, other) in enumerate(zip_longest(recorded, wanted)) if one != other)
-        label = _label(record.experiments[first]) if first < len(recorded) else "none"
+        found = record.experiments[first].digest if first < len(recorded) else "none"
+        missed = _label(designed[first].experiment) if first < len(designed) else "no more"
         raise ValueError(
-            "record must hold the experiments of safe.companion.designs, with as many runs and traces; "
-            f"got another as number {first} ({label}): {_AGAIN}"
+            "record must hold the experiments that were designed, with as many runs and traces; "
+            f"got {found} as number {first}, which should be {missed}: {_AGAIN}"
         )
 
 
 def _compare(
-    name: str, recorded: Sequence[str], made: Sequence[str], record: Record, number: int, run_number: int
+    collection: Collection,
+    name: str,
+    recorded: Sequence[str],
+    made: Sequence[str],
+    experiment: Experiment,
+    run_number: int,
 ) -> None:
     """Raise a ValueError, which names the first difference, unless these lines of a run are the same."""
     for line, expected in zip_longest(recorded, made, fillvalue=""):
-        for column, found, wanted in zip_longest(COLUMNS[name], line.split(","), expected.split(","), fillvalue=""):
+        for column, found, wanted in zip_longest(
+            collection.columns[name], line.split(","), expected.split(","), fillvalue=""
+        ):
             if found != wanted:
-                entry = record.experiments[number]
+                record, path = _record(collection), str(collection.folder / name)
+                entry = record.experiments[record.numbers[experiment.digest[:DIGITS]]]
                 where = f", window {(line or expected).split(',')[2]}" if name == TRACES else ""
                 raise ValueError(
-                    f"record must hold what its experiments make; got {str(RECORD / name)!r}, where run {run_number} "
-                    f"of {_label(entry)}{where}, has {column} {found!r} instead of {wanted!r}"
+                    f"record must hold what its experiments make; got {path!r}, where run {run_number} "
+                    f"of {_label(experiment)}{where}, has {column} {found!r} instead of {wanted!r}"
                     + "".join(blame(record.origins[place]) for place in entry.origins)
                 )
 
 
-def _label(entry: Entry) -> str:
-    return f"{entry.algorithm} on {entry.maze}, seed {entry.seed} ({entry.digest[:8]})"
+def _label(experiment: Experiment) -> str:
+    return f"{experiment.algorithm.name} on {experiment.maze.name}, seed {experiment.seed} ({experiment.digest[:8]})"
 
 
 def main() -> None:

@@ -10,7 +10,7 @@ Floating-point numbers are added up in one order, in compiled functions, so that
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 import numpy as np
 import pandas as pd
@@ -118,20 +118,26 @@ def observe(experiment: Experiment, story: Iterable[Generation]) -> pd.DataFrame
     return pd.DataFrame(rows, pd.Index(numbers, name="generation", dtype=int), list(MEASURES), dtype=np.float64)
 
 
-def by_window(table: pd.DataFrame) -> pd.DataFrame:
+def by_window(table: pd.DataFrame, since_start: Collection[str] = SINCE_START) -> pd.DataFrame:
     """A table of `observe` by windows of the run.
+
+    Parameters
+    ----------
+    table : DataFrame
+    since_start : collection of str
+        The measures since the start of the run.
 
     Returns
     -------
     pandas.DataFrame, one row for each of WINDOWS that the run reached, indexed by its first generation
         The mean of each measure over the window's generations, without those in which it is not a number; the last
-        value of measures since the start of the run (SINCE_START).
+        value of measures since the start of the run.
     """
     window = np.searchsorted(WINDOWS, table.index, side="right") - 1
     reached = np.unique(window)
     columns = {
         name: [
-            values[window == w][-1] if name in SINCE_START else _mean_of_numbers(values[window == w]) for w in reached
+            values[window == w][-1] if name in since_start else _mean_of_numbers(values[window == w]) for w in reached
         ]
         for name, values in zip(table, table.to_numpy().T, strict=True)
     }

@@ -10,24 +10,32 @@ import pandas as pd
 import pytest
 
 import safe
-from safe.companion import designs, evidence
+from safe.companion import evidence
 from safe.companion.designs import Recorded
+from safe.companion.evidence import Collection
 from safe.experiments.provenance import Origin
-from safe.results import mechanism
+from safe.results import exploration, mechanism
 
 FEW = safe.Parameters(generations=4)
 COEVOLVED = safe.Experiment("safe", "maze1", 6, 3, FEW)
 RANDOM = safe.Experiment("random", "maze2", 4, 3, FEW)
 DESIGN = [Recorded(COEVOLVED, traced=3), Recorded(RANDOM, traced=1), Recorded(replace(COEVOLVED, seed=4))]
+COEFFICIENTS = safe.algorithms.COEFFICIENTS
 FILES = (evidence.RUNS, evidence.TRACES, evidence.SUMMARY)
 
 
 @pytest.fixture
 def empty(tmp_path, monkeypatch):
     """The folder of a record that has not been made."""
-    monkeypatch.setattr(evidence, "RECORD", tmp_path / "record")
-    monkeypatch.setattr(designs, "everything", lambda: DESIGN)
+    monkeypatch.setattr(evidence, "FOLDER", tmp_path)
+    collect(monkeypatch)
     return tmp_path / "record"
+
+
+def collect(monkeypatch, designed=DESIGN, coefficients=COEFFICIENTS, observer=mechanism):
+    """Let one collection be all there is."""
+    collection = Collection("record", lambda: designed, coefficients, observer)
+    monkeypatch.setattr(evidence, "COLLECTIONS", (collection,))
 
 
 @pytest.fixture
@@ -44,12 +52,33 @@ def make(record, **options):
 def test_recorded_runs_are_those_of_the_experiments(record):
     for experiment, recorded in evidence.runs([COEVOLVED, RANDOM], {}).items():
         made = safe.run(experiment, progress=False)
-        coefficients = [*safe.algorithms.COEFFICIENTS] if experiment is COEVOLVED else []
+        coefficients = [*COEFFICIENTS] if experiment is COEVOLVED else []
         assert recorded.columns.tolist() == ["run", "success", "generation", "distance", *coefficients, "evaluations"]
         exact = recorded.columns.drop(coefficients)
         pd.testing.assert_frame_equal(recorded[exact], made[exact])
         for name in coefficients:
             assert recorded[name].tolist() == [float(f"{value:.3g}") for value in made[name]]
+
+
+def test_collections_are_made_read_and_verified_together(empty, monkeypatch):
+    goals = replace(COEVOLVED, algorithm=safe.Algorithm("goals", kind="goal", judging="favourite"))
+    more = Collection("more", lambda: [Recorded(goals, traced=2)], (), exploration)
+    monkeypatch.setattr(evidence, "COLLECTIONS", (*evidence.COLLECTIONS, more))
+    make(empty)
+    assert evidence.verify(sample=100, traces=100) == (16 + 6, 4 + 2)
+    assert evidence.verify(sample=3, traces=1) == (3 + 3, 1 + 1)
+    runs = evidence.runs([goals, COEVOLVED])
+    assert [*runs] == [goals, COEVOLVED]
+    assert not {*COEFFICIENTS} & {*runs[goals]}
+    assert runs[goals].generation.tolist() == safe.run(goals, progress=False).generation.tolist()
+    traces = evidence.traces([COEVOLVED, goals], 5)
+    observed = exploration.by_window(exploration.observe(goals, goals.replay(1)))
+    assert (
+        traces[goals].query("run == 1").path_cells.tolist()
+        == observed.path_cells.map("{:.3g}".format).map(float).tolist()
+    )
+    assert "novelty" in traces[COEVOLVED]
+    assert evidence.extent().loc["recorded", ["experiments", "runs", "traces"]].tolist() == [4, 22, 6]
 
 
 def test_fewer_runs_than_are_recorded(record):
@@ -94,7 +123,7 @@ def test_no_trace_that_is_not_recorded_is_observed_if_the_runs_are_recorded(reco
 
 def test_runs_of_which_nothing_is_recorded_are_observed_now(record, monkeypatch):
     recorded = evidence.traces([COEVOLVED, RANDOM], 2)
-    rewrite(record, entries=lambda entry: entry._replace(digest="0" * 64))
+    rewrite(record, entries=lambda entry: entry._replace(digest="0" * 16))
     few = [replace(COEVOLVED, runs=2), replace(RANDOM, runs=1)]  # of which there are two traces, and one
     here = {"executor": None, "cores": 2, "store": None}
     for (experiment, observed), table in zip(evidence.traces(few, 5, here).items(), recorded.values(), strict=True):
@@ -116,8 +145,8 @@ def test_the_record_says_where_it_comes_from(record):
     text = (record / evidence.SUMMARY).read_text()
     contents = json.loads(text)
     assert contents["experiments"][:2] == [
-        [COEVOLVED.digest, "safe", "maze1", 3, 6, 3, 200, [0]],
-        [RANDOM.digest, "random", "maze2", 3, 4, 1, 200, [0]],
+        [COEVOLVED.digest[:16], 6, 3, [0]],
+        [RANDOM.digest[:16], 4, 1, [0]],
     ]
     lines = [line.rstrip(",") for line in text.splitlines()]
     assert all(json.dumps(entry) in lines for entry in contents["experiments"]), "one a line, to compare versions"
@@ -169,16 +198,16 @@ def kept_traces(record):
 def test_an_interruption_loses_only_what_is_in_flight(empty, monkeypatch):
     made, make_trace = [], evidence.make_trace
 
-    def interrupted(experiment, number):
+    def interrupted(observer, experiment, number):
         while number == 2 and len(kept_traces(empty)) < 3:
             time.sleep(0.01)
         if number == 2:
             raise KeyboardInterrupt
-        return make_trace(experiment, number)
+        return make_trace(observer, experiment, number)
 
-    def counted(experiment, number):
+    def counted(observer, experiment, number):
         made.append((experiment.digest, number))
-        return make_trace(experiment, number)
+        return make_trace(observer, experiment, number)
 
     monkeypatch.setattr(evidence, "make_trace", interrupted)
     with pytest.raises(KeyboardInterrupt):
@@ -223,12 +252,13 @@ def test_a_damaged_file_is_refused(record, name, damage):
 
 def rewrite(record, change=lambda name, line: line, entries=lambda entry: entry, origins=None):
     """Write the record again with some lines and entries changed, or with other origins."""
-    kept = evidence._record()
+    (collection,) = evidence.COLLECTIONS
+    kept = evidence._record(collection)
     lines = {
         name: [change(name, line) for line in lzma.decompress((record / name).read_bytes()).decode().splitlines()[1:]]
         for name in (evidence.RUNS, evidence.TRACES)
     }
-    evidence._write([*map(entries, kept.experiments)], origins or kept.origins, lines)
+    evidence._write(collection, [*map(entries, kept.experiments)], origins or kept.origins, lines)
 
 
 def test_a_record_that_is_written_again_is_the_same(record):
@@ -248,7 +278,7 @@ def test_a_changed_digit_is_noticed(record, name, sources):
             cells[3] = "7e7"
         return ",".join(cells)
 
-    origins = evidence._record().origins
+    origins = evidence._record(*evidence.COLLECTIONS).origins
     if sources == "other":
         origins = [o._replace(version="0.0.9", commit="c0ffee0123456789", sources="0123456789") for o in origins]
     rewrite(record, change, origins=origins)
@@ -281,23 +311,25 @@ def test_a_record_by_other_rules_is_refused(record):
 
 
 @pytest.mark.parametrize(
-    ("design", "number", "got"),
+    ("design", "number", "got", "missed"),
     [
-        ([Recorded(replace(COEVOLVED, runs=5), 3), *DESIGN[1:]], 0, r"safe on maze1, seed 3 \(\w{8}\)"),
-        ([Recorded(COEVOLVED, 2), *DESIGN[1:]], 0, r"safe on maze1, seed 3 \(\w{8}\)"),
-        ([DESIGN[0], DESIGN[2], DESIGN[1]], 1, r"random on maze2, seed 3 \(\w{8}\)"),
-        (DESIGN[:2], 2, r"safe on maze1, seed 4 \(\w{8}\)"),
-        ([*DESIGN, Recorded(replace(RANDOM, seed=9))], 3, "none"),
+        ([Recorded(replace(COEVOLVED, runs=5), 3), *DESIGN[1:]], 0, r"\w{16}", r"safe on maze1, seed 3 \(\w{8}\)"),
+        ([Recorded(COEVOLVED, 2), *DESIGN[1:]], 0, r"\w{16}", r"safe on maze1, seed 3 \(\w{8}\)"),
+        ([DESIGN[0], DESIGN[2], DESIGN[1]], 1, r"\w{16}", r"safe on maze1, seed 4 \(\w{8}\)"),
+        (DESIGN[:2], 2, r"\w{16}", "no more"),
+        ([*DESIGN, Recorded(replace(RANDOM, seed=9))], 3, "none", r"random on maze2, seed 9 \(\w{8}\)"),
     ],
 )
-def test_a_record_of_another_design_is_refused(record, monkeypatch, design, number, got):
-    monkeypatch.setattr(designs, "everything", lambda: design)
-    with pytest.raises(ValueError, match=rf"got another as number {number} \({got}\): make evidence makes it again"):
+def test_a_record_of_another_design_is_refused(record, monkeypatch, design, number, got, missed):
+    collect(monkeypatch, design)
+    with pytest.raises(
+        ValueError, match=rf"got {got} as number {number}, which should be {missed}: make evidence makes it again"
+    ):
         evidence.verify()
 
 
 def test_a_record_of_other_measures_is_refused(record, monkeypatch):
-    monkeypatch.setitem(evidence.COLUMNS, evidence.TRACES, ["experiment", "run", "window", "another"])
+    collect(monkeypatch, observer=exploration)
     with pytest.raises(ValueError, match="record must hold the measures of this version; got 'experiment,run,window,"):
         evidence.verify()
 
@@ -337,5 +369,7 @@ def test_a_sample_of_the_record_is_reproduced():
     assert evidence.verify()[0] > 0
 
 
-def test_the_record_is_small():
-    assert sum((evidence.RECORD / name).stat().st_size for name in FILES) < 1_000_000
+def test_the_records_are_small():
+    files = [file for folder in evidence.FOLDER.iterdir() for file in folder.iterdir()]
+    assert len(files) == 3 * len(evidence.COLLECTIONS)
+    assert sum(file.stat().st_size for file in files) < 1_500_000
