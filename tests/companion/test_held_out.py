@@ -238,7 +238,7 @@ def test_certificates_hold_the_tests_that_a_candidate_came_to(name):
     assert set(table.outcome) == {UNPLACED, *FAILURES, UNSOLVED, PASSED}
     certified = table[table.outcome.isin([UNSOLVED, PASSED])]
     for test, runs in FAILURES.items():
-        assert (certified[[f"{test}_runs", f"{test}_successes"]] == (runs, 0)).all(axis=None)
+        assert (certified[[f"{test}_runs", f"{test}_successes"]] == [runs, 0]).all(axis=None)
         rejected = table[table.outcome == test]
         assert (rejected[f"{test}_successes"] == 1).all()
         assert rejected[f"{test}_runs"].between(1, runs).all()
@@ -246,7 +246,7 @@ def test_certificates_hold_the_tests_that_a_candidate_came_to(name):
     assert later[table.outcome.isin([UNPLACED, "standard"])].isna().all(axis=None)
     assert table.walls.notna().equals(table.outcome.isin([UNSOLVED, PASSED]))
     most = SOLVING_RUNS * len(held_out.CONTESTANTS)
-    assert (table[table.outcome == UNSOLVED][["solving_runs", "solving_successes"]] == (most, 0)).all(axis=None)
+    assert (table[table.outcome == UNSOLVED][["solving_runs", "solving_successes"]] == [most, 0]).all(axis=None)
 
 
 def test_a_set_is_the_first_sixty_candidates_that_passed(name):
