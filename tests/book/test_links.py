@@ -10,9 +10,10 @@ from urllib.parse import urljoin
 
 import pytest
 
-from safe.companion import evidence
+from safe.companion import evidence, held_out
 from safe.companion.designs import everything
 from safe.companion.questions import all_questions
+from safe.playground.address import drive_address
 from tests.helpers.addresses import run_at, values_of
 from tests.helpers.checkout import RUNS, build, output_of
 
@@ -38,7 +39,8 @@ ABOUT_RUNS = {
 }
 ABOUT_RECORDED_RUNS = {"tab-archives", "tab-mutualism", "tab-selects", "tab-settings"}
 ABOUT_SCENES = {"tab-archives-watch", "tab-mutualism-watch", "tab-selects-watch"}
-ABOUT_ROBOTS = {"tab-mazes", "tab-mean-controller"}
+ABOUT_ROBOTS = {"tab-known", "tab-mazes", "tab-mean-controller"}
+ABOUT_UNSEEN = {"tab-unseen-open"}
 ABOUT_NEITHER = {
     "tab-archives-answers",
     "tab-archives-inside",
@@ -63,6 +65,7 @@ ABOUT_NEITHER = {
     "tab-selects-answers",
     "tab-selects-inside",
     "tab-sensors",
+    "tab-unseen",
     "tab-verdicts",
 }
 WATCH = r"view=watch&maze=\w+&algorithm=[\w:]+&seed=0x[0-9a-f]{64}/\d+"
@@ -97,7 +100,7 @@ def addresses_of(links):
 
 
 def test_every_table_is_about_runs_or_robots_or_neither(linked):
-    assert set(linked) == ABOUT_RUNS | ABOUT_RECORDED_RUNS | ABOUT_SCENES | ABOUT_ROBOTS | ABOUT_NEITHER
+    assert set(linked) == ABOUT_RUNS | ABOUT_RECORDED_RUNS | ABOUT_SCENES | ABOUT_ROBOTS | ABOUT_UNSEEN | ABOUT_NEITHER
 
 
 @pytest.mark.parametrize("name", sorted(ABOUT_RUNS | ABOUT_ROBOTS))
@@ -116,6 +119,13 @@ def test_every_row_about_runs_or_robots_leads_to_them(checkout, linked, name):
             for key in ("maze", "algorithm"):
                 if key in row and key in values:
                     assert values[key].split(":")[0] == row[key], link
+
+
+def test_every_unseen_maze_can_be_driven_in(linked):
+    links = [link for name in ABOUT_UNSEEN for _, of_row in linked[name] for link in of_row]
+    mazes = [*held_out.design_set(), *held_out.test_set()]
+    assert [text for text, _ in links] == 2 * [str(number) for number in range(1, 61)]
+    assert addresses_of(links) == [drive_address(maze) for maze in mazes]
 
 
 def test_other_rows_have_no_links(linked):
