@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, product
 
+from safe import checks
 from safe.algorithms import Algorithm, Parameters
 from safe.companion import held_out
 from safe.companion.designs import ARCHIVES, DECIDING, EXPLORING, VARIATION, Design, Level, Recorded
@@ -90,13 +91,13 @@ def _weighing() -> Iterator[Contestant]:
         "the best score": THREE,
         "favourites": THREE | {"judging": "favourite"},
     }.items():
-        yield Contestant(f"three components, {name}", family, fields, RANDOM_ARCHIVE)
+        yield Contestant(f"weighing, {name}", family, fields, RANDOM_ARCHIVE)
     for rated, rating in RATED.items():
         if rating != "patience":
             fields = DRAWN | {"rating": rating}
-            yield Contestant(f"three components, drawn judges, {rated}", family, fields, RANDOM_ARCHIVE)
+            yield Contestant(f"weighing, drawn judges, {rated}", family, fields, RANDOM_ARCHIVE)
     rules = RANDOM_ARCHIVE | {"tournament": 20}
-    yield Contestant("three components, drawn judges, frozen, tournaments of 20", family, DRAWN, rules)
+    yield Contestant("weighing, drawn judges, frozen, tournaments of 20", family, DRAWN, rules)
 
 
 def _goals() -> Iterator[Contestant]:
@@ -112,7 +113,7 @@ def _goals() -> Iterator[Contestant]:
 def _both() -> Iterator[Contestant]:
     for (where, pool), rated in product(POOLS.items(), ("frozen", "redrawn")):
         fields = BOTH | {"rating": RATED[rated], "pool": pool}
-        yield Contestant(f"three components and goals {where}, {rated}", "both", fields, RANDOM_ARCHIVE)
+        yield Contestant(f"weighing and goals {where}, {rated}", "both", fields, RANDOM_ARCHIVE)
 
 
 # Questions
@@ -140,11 +141,11 @@ BEST_NOVELTY = {
     "mutation alone": "novelty search, archive random, tournaments of 20",
 }
 CHALLENGERS = (
-    "three components and goals from the repertoire, redrawn",
-    "three components, drawn judges, frozen",
+    "weighing and goals from the repertoire, redrawn",
+    "weighing, drawn judges, frozen",
 )
 FROM_REPERTOIRE = "goals from the repertoire, {}"
-BY_DRAWN_JUDGES = "three components, drawn judges, {}"
+BY_DRAWN_JUDGES = "weighing, drawn judges, {}"
 
 
 def contrasts() -> list[Contrast]:
@@ -157,8 +158,8 @@ def contrasts() -> list[Contrast]:
     found = []
     for operators, best in BEST_NOVELTY.items():
         found += [Contrast("better than novelty", one, best, operators) for one in CHALLENGERS]
-        for many in ("three components, drawn judges, frozen", "three components, the best score"):
-            found.append(Contrast("many judges", many, "three components, one fixed sum", operators))
+        for many in ("weighing, drawn judges, frozen", "weighing, the best score"):
+            found.append(Contrast("many judges", many, "weighing, one fixed sum", operators))
     for name, evolved, others in (
         (BY_DRAWN_JUDGES, "bred by genotypic novelty", ("frozen", "redrawn")),
         (BY_DRAWN_JUDGES, "bred by discovery", ("frozen", "redrawn", "bred by discovery, shuffled")),
@@ -176,7 +177,7 @@ LOOKED_INTO = [
     for name in (
         BEST_NOVELTY["mutation alone"],
         *CHALLENGERS,
-        "three components, one fixed sum",
+        "weighing, one fixed sum",
         FROM_REPERTOIRE.format("frozen"),
         FROM_REPERTOIRE.format("by patience"),
     )
@@ -188,6 +189,7 @@ LOOKED_INTO = [
 
 def decided(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
     """The contestants of the contrasts, each with a tenth of `runs` on each maze, but at least one."""
+    runs = checks.integer("runs", runs, 1, checks.MOST)
     ends = dict.fromkeys((name, one.operators) for one in contrasts() for name in (one.first, one.second))
     return contest(mazes, list(ends), max(1, round(runs * SHARE)), seed)
 
@@ -243,11 +245,10 @@ def kinds(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
 
 
 def everything() -> list[Recorded]:
-    """All that is recorded, in the order of the record."""
+    """All that is recorded of the three kinds and of the test set, in the order of the record."""
     of_class, of_test = kinds(load_mazes(list(MAZES)), RUNS, DECIDING), decided(held_out.test_set(), RUNS, DECIDING)
     looked = set(of_test.traced)
     return [
         *(Recorded(experiment, TRACED) for experiment in of_class.cells.values()),
         *(Recorded(experiment, LOOKED * (experiment in looked)) for experiment in of_test.cells.values()),
-        *(Recorded(experiment) for experiment in explored().cells.values()),
     ]

@@ -38,7 +38,7 @@ import pandas as pd
 
 from safe import checks
 from safe.algorithms import COEFFICIENTS
-from safe.companion import designs
+from safe.companion import contest, designs
 from safe.companion.designs import Recorded
 from safe.evolution import RULES, evolve
 from safe.experiments.cores import available_cores
@@ -47,7 +47,7 @@ from safe.experiments.experiment import Experiment, row_of, run
 from safe.experiments.progress import bar
 from safe.experiments.provenance import Origin, origin
 from safe.experiments.store import Store, sha256
-from safe.results import mechanism
+from safe.results import exploration, mechanism
 
 FOLDER = Path(__file__).with_name("record")
 RUNS, TRACES, SUMMARY = "runs.csv.xz", "traces.csv.xz", "record.json"
@@ -78,7 +78,10 @@ class Collection:
         }
 
 
-COLLECTIONS = (Collection("designs", designs.everything, COEFFICIENTS, mechanism),)
+COLLECTIONS = (
+    Collection("designs", designs.everything, COEFFICIENTS, mechanism),
+    Collection("contest", contest.everything, (), exploration),
+)
 DIGITS = 16  # of a digest, which tell an experiment from all others
 
 
@@ -272,15 +275,27 @@ def _damaged(collection: Collection, name: str, reason: str) -> ValueError:
 
 
 def make(
-    store: str | os.PathLike, executor: Executor | None = None, cores: int | None = None, progress: bool = True
+    store: str | os.PathLike,
+    executor: Executor | None = None,
+    cores: int | None = None,
+    progress: bool = True,
+    collections: Sequence[str] = (),
 ) -> None:
-    """Make all runs and traces of all collections, and the records of them.
+    """Make all runs and traces of collections, and the records of them.
 
     Runs are kept in the store, and traces in a file beside it, as soon as they come back. So an interrupted making
-    continues where it stopped. Arguments and errors are those of `safe.run`.
+    continues where it stopped.
+
+    Parameters
+    ----------
+    store, executor, cores, progress
+        As in `safe.run`, also for errors.
+    collections : sequence of str
+        The names of those to make; by default all.
     """
-    for collection in COLLECTIONS:
-        _make(collection, store, executor, cores, progress)
+    known = {collection.name: collection for collection in COLLECTIONS}
+    for name in collections or known:
+        _make(known[checks.choice("collections", name, known)], store, executor, cores, progress)
 
 
 def _make(
@@ -521,11 +536,12 @@ def main() -> None:
     parser.add_argument("--store", default="evidence.sqlite", help="where finished runs are kept (evidence.sqlite)")
     parser.add_argument("--cores", type=int, default=0, help="how many cores of this machine; by default all")
     parser.add_argument("--scheduler", default="", help="the address of a Dask scheduler whose workers make the runs")
+    parser.add_argument("collections", nargs="*", help="which collections; by default all")
     options = parser.parse_args()
     from safe.companion import notebook  # it imports matplotlib, which a build of the book must not do yet
 
     try:
-        make(**notebook.resources(options.store, options.scheduler, options.cores))
+        make(**notebook.resources(options.store, options.scheduler, options.cores), collections=options.collections)
     except ValueError as error:
         parser.error(str(error))
 

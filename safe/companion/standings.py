@@ -94,12 +94,14 @@ def answers(contrasts: list[Contrast], counts: Counts) -> pd.DataFrame:
     """
     counts = counts.sort_index()
     ends = {(name, one.operators) for one in contrasts for name in (one.first, one.second)}
-    mazes = telling(counts[counts.index.droplevel("maze").isin(ends)])
+    taking_part = counts[counts.index.droplevel("maze").isin(ends)]
+    mazes = telling(taking_part) or taking_part.index.unique("maze").tolist()  # if none tells anybody apart, p is 1
     rows = []
     for one in contrasts:
         first, second = (counts.loc[(name, one.operators)].loc[mazes] for name in (one.first, one.second))
         rates = [(of_one.successes / of_one.runs).to_numpy() for of_one in (first, second)]
-        pair, model = compare_pairs(*rates), mixed_model(first.successes, first.runs, second.successes, second.runs)
+        pair = compare_pairs(*rates)
+        model = mixed_model(first.successes, first.runs, second.successes, second.runs)
         rows.append(
             {
                 "question": one.question,

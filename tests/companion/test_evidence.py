@@ -78,6 +78,11 @@ def test_collections_are_made_read_and_verified_together(empty, monkeypatch):
         == observed.path_cells.map("{:.3g}".format).map(float).tolist()
     )
     assert "novelty" in traces[COEVOLVED]
+    before = contents(empty)
+    evidence.make(empty.with_name("other.sqlite"), progress=False, collections=["more"])
+    assert contents(empty) == before
+    with pytest.raises(ValueError, match="collections must be one of 'record', 'more'; got 'most'"):
+        evidence.make(empty.with_name("other.sqlite"), collections=["most"])
     assert evidence.extent().loc["recorded", ["experiments", "runs", "traces"]].tolist() == [4, 22, 6]
 
 
@@ -348,13 +353,13 @@ def test_a_sample_is_drawn(record, monkeypatch):
 def test_the_command_line(monkeypatch, capsys):
     made = []
     monkeypatch.setattr(evidence, "make", lambda **options: made.append(options))
-    monkeypatch.setattr("sys.argv", ["evidence", "--store", "mine.sqlite", "--cores", "3"])
+    monkeypatch.setattr("sys.argv", ["evidence", "contest", "--store", "mine.sqlite", "--cores", "3"])
     evidence.main()
     monkeypatch.setattr("sys.argv", ["evidence"])
     evidence.main()
     assert made == [
-        {"store": "mine.sqlite", "executor": None, "cores": 3},
-        {"store": "evidence.sqlite", "executor": None, "cores": None},
+        {"store": "mine.sqlite", "executor": None, "cores": 3, "collections": ["contest"]},
+        {"store": "evidence.sqlite", "executor": None, "cores": None, "collections": []},
     ]
     monkeypatch.setattr("sys.argv", ["evidence", "--cores", "-1"])
     with pytest.raises(SystemExit, match="2"):
