@@ -27,7 +27,7 @@ NOTEBOOKS = ROOT / "notebooks"
 EXECUTED = ROOT / "executed"
 DEPENDENCIES = ("numpy", "numba", "scipy", "statsmodels", "pandas", "matplotlib")
 # of the package's files, unlike those of editors and systems
-SUFFIXES = (".py", ".csv", ".xz", ".json", ".maze", ".mplstyle", ".html")
+SUFFIXES = (".py", ".csv", ".xz", ".json", ".jsonl", ".maze", ".mplstyle", ".html")
 STAMP = "executed_from"  # key in the metadata of an executed copy
 LEFT_OUT = (
     "text/csv",  # for book/tables.py alone

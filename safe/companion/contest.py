@@ -21,9 +21,10 @@ from safe.maze_files import load_mazes
 from safe.results.labels import maze_labels
 
 EXPLORED = 5  # runs of each contestant on each maze of the design set
-RUNS = 50  # on each maze of the test set
-CLASS = 500  # runs of each of the three kinds
-TRACED = 20  # of them, inside which the mechanism is observed
+RUNS = 500  # that are recorded of the three kinds; of a contestant, the SHARE of it on each maze
+SHARE = 0.1
+TRACED = 20  # recorded runs of a kind inside which is looked
+LOOKED = 1  # the same of a contestant on each maze
 
 # Contestants
 
@@ -169,13 +170,26 @@ def contrasts() -> list[Contrast]:
     return found
 
 
+# inside whose runs is looked
+LOOKED_INTO = [
+    (name, "mutation alone")
+    for name in (
+        BEST_NOVELTY["mutation alone"],
+        *CHALLENGERS,
+        "three components, one fixed sum",
+        FROM_REPERTOIRE.format("frozen"),
+        FROM_REPERTOIRE.format("by patience"),
+    )
+]
+
+
 # Designs
 
 
-def decided() -> Design:
-    """The contestants of the contrasts, on the test set."""
-    ends = [(name, one.operators) for one in contrasts() for name in (one.first, one.second)]
-    return contest(held_out.test_set(), list(dict.fromkeys(ends)), RUNS, DECIDING)
+def decided(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
+    """The contestants of the contrasts, each with a tenth of `runs` on each maze, but at least one."""
+    ends = dict.fromkeys((name, one.operators) for one in contrasts() for name in (one.first, one.second))
+    return contest(mazes, list(ends), max(1, round(runs * SHARE)), seed)
 
 
 def explored() -> Design:
@@ -185,7 +199,7 @@ def explored() -> Design:
 
 
 def contest(mazes: Sequence[Maze], ends: Sequence[tuple[str, str]], runs: int, seed: int) -> Design:
-    """Contestants with operators, by their names, on some mazes."""
+    """Contestants with operators, by their names, with so many runs on each maze."""
     known = {one.name: one for one in contestants()}
 
     def cells() -> Iterator[tuple[tuple[Level, ...], Experiment]]:
@@ -194,7 +208,9 @@ def contest(mazes: Sequence[Maze], ends: Sequence[tuple[str, str]], runs: int, s
             yield (labels[maze], name, operators), Experiment(_algorithm(known[name]), maze, runs, seed, parameters)
 
     labels = dict(zip(mazes, maze_labels(mazes), strict=True))
-    return Design(("maze", "contestant", "operators"), dict(cells()))
+    found = dict(cells())
+    traced = [e for (_, name, operators), e in found.items() if (name, operators) in LOOKED_INTO]
+    return Design(("maze", "contestant", "operators"), found, traced)
 
 
 def _algorithm(contestant: Contestant) -> Algorithm:
@@ -228,7 +244,10 @@ def kinds(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
 
 def everything() -> list[Recorded]:
     """All that is recorded, in the order of the record."""
-    of_class = kinds(load_mazes(list(MAZES)), CLASS, DECIDING)
-    return [Recorded(experiment, TRACED) for experiment in of_class.traced] + [
-        Recorded(experiment) for design in (decided(), explored()) for experiment in design.cells.values()
+    of_class, of_test = kinds(load_mazes(list(MAZES)), RUNS, DECIDING), decided(held_out.test_set(), RUNS, DECIDING)
+    looked = set(of_test.traced)
+    return [
+        *(Recorded(experiment, TRACED) for experiment in of_class.cells.values()),
+        *(Recorded(experiment, LOOKED * (experiment in looked)) for experiment in of_test.cells.values()),
+        *(Recorded(experiment) for experiment in explored().cells.values()),
     ]

@@ -13,7 +13,7 @@ import string
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, fields
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 import pandas as pd
@@ -89,7 +89,7 @@ class Experiment:
         return {
             "rules": RULES,
             "seed": self.seed,
-            "maze": self.maze.drawing(),
+            "maze": _drawing(self.maze),
             "algorithm": self.algorithm.content,
             "parameters": self.parameters.departures,
         }
@@ -152,6 +152,12 @@ class Experiment:
         [0, 1, 2]
         """
         return generations(self.maze, self.algorithm, self.seed_sequence(run), self.parameters)
+
+
+@lru_cache(maxsize=1000)
+def _drawing(maze: Maze) -> str:
+    """The drawing of a maze, which thousands of experiments may share."""
+    return maze.drawing()
 
 
 def run(

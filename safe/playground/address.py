@@ -5,9 +5,10 @@ An address is the part of the page's URL behind the `#`, `key=value&key=value`, 
     view         `watch` a run, or `drive` a robot by its controller
     maze         a packaged maze's name, or the cells of any maze: HEIGHTxWIDTH/row,column of the start/row,column of
                  the goal/walls; the walls are bits, row by row, in base64url without padding
-    algorithm    its name in `safe.ALGORITHMS`, or name:rating:objectives, and then :scaling:judging unless both are the
-                 paper's, each by its first word; the objectives are `drawn`, or the coefficients a,b,a,b,... of each
-                 (empty: random search)
+    algorithm    its name in `safe.ALGORITHMS`, or name:rating:objectives, then :scaling:judging and then
+                 :kind:pool:components unless they, and all behind them, are the paper's; the objectives are `drawn`,
+                 or the genes of one after the other, a,b,a,b,... (empty: nobody judges); the components are separated
+                 by commas; each of these by its last word, any other choice by its first
     seed         an integer or several, separated by commas, then perhaps a slash and the spawn key; a run of an
                  experiment has the experiment's digest and the number of the run
     controller   the sixteen weights, separated by commas
@@ -54,6 +55,8 @@ def run_address(experiment: Experiment, run: int) -> str:
     'view=watch&maze=maze1&algorithm=safe&seed=0xc59dd4'
     >>> run_address(Experiment(Algorithm("mine", rating="pearson", judging="drawn judge"), "maze1"), 7)[22:65]
     'algorithm=mine:pearson:drawn:raw:drawn&seed'
+    >>> run_address(Experiment(Algorithm("mine", judging="favourite", kind="goal"), "maze1"), 7)[22:87]
+    'algorithm=mine:none:drawn:raw:favourite:goal:generation:distance,novelty&seed'
     >>> from safe import Parameters
     >>> run_address(Experiment("safe", "maze1", parameters=Parameters(population=50, mutation=0.1)), 7)[-29:]
     '/7&population=50&mutation=0.1'
@@ -179,9 +182,17 @@ def _algorithm(algorithm: Algorithm) -> str:
         return algorithm.name
     objectives = "drawn" if algorithm.objectives is None else _numbers(np.ravel(algorithm.objectives))
     parts = [algorithm.name.replace(":", " "), _code(algorithm.rating), objectives]  # a colon separates the parts
-    if not algorithm.content.keys().isdisjoint({"scaling", "judging"}):
-        parts += [_code(algorithm.scaling), _code(algorithm.judging)]
-    return ":".join(parts)
+    later = [
+        {"scaling": _code(algorithm.scaling), "judging": _code(algorithm.judging)},
+        {
+            "kind": _code(algorithm.kind),
+            "pool": _code(algorithm.pool),
+            "components": ",".join(component.split()[-1] for component in algorithm.components),
+        },
+    ]
+    while later and algorithm.content.keys().isdisjoint(later[-1]):
+        later.pop()
+    return ":".join(parts + [code for codes in later for code in codes.values()])
 
 
 def _code(choice: str) -> str:

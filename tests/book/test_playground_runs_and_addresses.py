@@ -10,6 +10,7 @@ from urllib.parse import quote
 import pytest
 
 import safe
+from safe.judges import RATINGS
 from safe.novelty import ADMISSIONS
 from safe.results import statistics
 from tests.helpers.browser import needs_browser
@@ -99,7 +100,7 @@ def test_choices_beyond_the_paper_reach_the_address_and_the_run(visit):
     many.fill("9")
     page.keyboard.press("Enter")
     choose("what objective functions are bred for", "ranks that grow near the goal (Spearman)")
-    choose("how closeness and novelty are weighed", "as ranks from 0 to 1")
+    choose("how components are weighed", "as ranks from 0 to 1")
     choose("who chooses parents", "one objective function, drawn each time")
     address = address_of(page)
     assert [value for key, value in address if key == "algorithm"] == ["safe:spearman:drawn:rank:drawn", "random"]
@@ -119,11 +120,82 @@ def test_choices_beyond_the_paper_reach_the_address_and_the_run(visit):
     unevolved = page.get_by_role("region", name="SAFE (unevolved, rank, drawn judge)")
     assert unevolved.get_by_text("judged by other objective functions").is_visible()
     choose("what objective functions are bred for", "being different (paper)")
-    choose("how closeness and novelty are weighed", "as they are (paper)")
+    choose("how components are weighed", "as they are (paper)")
     choose("who chooses parents", "the best of all scores (paper)")
     assert [value for key, value in address_of(page) if key == "algorithm"] == ["safe", "random", "novelty"]
     page.get_by_role("checkbox", name="SAFE").uncheck()
-    assert page.get_by_label("what objective functions are bred for").locator("visible=true").is_disabled()
+    assert page.get_by_label("what objective functions are bred for").locator("visible=true").count() == 0
+    assert page.get_by_label("who chooses parents").locator("visible=true").count() == 1
+
+
+def test_kinds_pools_and_components_reach_the_address_and_the_run(visit):
+    page = visit(f"view=watch&algorithm=safe&seed=3&{QUICK}")
+    page.locator(".playground summary:visible").click()
+    labels = {
+        "kind": "what objective functions are",
+        "rating": "what objective functions are bred for",
+        "scaling": "how components are weighed",
+        "judging": "who chooses parents",
+        "pool": "from where parents are taken",
+        "patience": "generations until it is given up",
+    }
+
+    def field(name):
+        role = "spinbutton" if name == "patience" else "combobox"
+        return page.get_by_role(role, name=labels[name], exact=True)
+
+    def offered(name):
+        return [option.get_attribute("value") for option in field(name).locator("option:not([disabled])").all()]
+
+    def algorithms():
+        return [value for key, value in address_of(page) if key == "algorithm"]
+
+    assert [name for name in labels if field(name).count() == 1] == ["kind", "rating", "scaling", "judging"]
+    assert offered("rating") == [rating for rating in RATINGS if rating != "patience"]
+    for component in ("novelty", "path rarity", "closeness on the way"):
+        page.get_by_role("checkbox", name=component, exact=True).click()
+    assert algorithms() == ["safe:genotypic:drawn:raw:best:weights:generation:distance,rarity,way"]
+    weighing = safe.Algorithm("safe", None, "genotypic novelty", components=("1 / distance", "path rarity", "1 / way"))
+    title = "SAFE (closeness + path rarity + closeness on the way)"
+    play_to_the_end(page, title)
+    assert panel(page, title).inner_text() == status_of(safe.evolve("maze1", weighing, 3, QUICK_PARAMETERS), weighing)
+    for component in ("closeness", "path rarity", "closeness on the way"):
+        page.get_by_role("checkbox", name=component, exact=True).click()
+    page.get_by_role("alert").get_by_text("components must be some of").wait_for()
+    assert page.get_by_role("checkbox", name="closeness on the way", exact=True).is_checked()
+
+    field("scaling").select_option("rank")
+    field("rating").select_option("mutualism")
+    field("kind").select_option("goal")
+    assert [name for name in labels if field(name).count() == 1] == ["kind", "rating", "judging", "pool"]
+    assert page.get_by_role("checkbox", name="path rarity").locator("visible=true").count() == 0
+    field("rating").select_option("patience")
+    field("patience").fill("4")
+    page.keyboard.press("Enter")
+    field("pool").select_option("repertoire")
+    assert offered("judging") == ["drawn judge", "favourite"]
+    assert algorithms() == ["safe:patience:drawn:raw:favourite:goal:repertoire:distance,novelty"]
+    assert address_of(page)[-1] == ("patience", "4")
+    title = "SAFE (goals, patience, favourite, repertoire)"
+    play_to_the_end(page, title)
+    goals = safe.Algorithm("safe", None, "patience", judging="favourite", kind="goal", pool="repertoire")
+    run = safe.evolve("maze1", goals, 3, replace(QUICK_PARAMETERS, patience=4))
+    assert panel(page, title).inner_text() == status_of(run, goals)
+
+    field("kind").select_option("mixed")
+    assert offered("rating") == ["none", "redrawn"]
+    assert algorithms() == ["safe:redrawn:drawn:raw:favourite:mixed:repertoire:distance,novelty"]
+    field("kind").select_option("weights")
+    assert algorithms() == ["safe:redrawn:drawn:raw:favourite"]
+
+    page.get_by_role("checkbox", name="Random search").check()
+    page.get_by_role("checkbox", name="SAFE (redrawn, favourite)").click()
+    assert [name for name in labels if field(name).count() == 1] == ["pool"]
+    field("pool").select_option("repertoire")
+    play_to_the_end(page, "MAP-Elites")
+    nobody = safe.Algorithm("random", [], pool="repertoire")
+    run = safe.evolve("maze1", nobody, 3, QUICK_PARAMETERS)
+    assert panel(page, "MAP-Elites").inner_text() == status_of(run, nobody)
 
 
 def test_the_links_of_the_page_lead_to_what_they_say(visit, html):

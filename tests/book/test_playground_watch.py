@@ -5,8 +5,8 @@ All that it computes is compared with the package.
 
 import re
 from dataclasses import replace
-from decimal import ROUND_HALF_UP, Context
 
+import numpy as np
 import pytest
 
 import safe
@@ -19,7 +19,9 @@ from tests.helpers.playground_page import (
     driven,
     look_at,
     panel,
+    place_of,
     play_to_the_end,
+    short,
     status_of,
 )
 
@@ -98,11 +100,6 @@ def test_charts_show_the_run_so_far(visit):
     assert square.locator(".winner").count() == len(set(now.winners.tolist()))
 
 
-def short(value):
-    """A number to three digits, and halves upwards, as in JavaScript."""
-    return f"{float(Context(prec=3, rounding=ROUND_HALF_UP).create_decimal_from_float(float(value))):g}"
-
-
 def standings_of(generation, robot):
     """The rows of the table in which the page compares a robot with the others of its generation."""
     (closeness, novelty), scaled = generation.components, generation.scaled
@@ -179,6 +176,124 @@ def test_one_robot_is_explained(visit, algorithm, admission):
             assert "%" not in text
     page.get_by_role("button", name="Drive this robot").click()
     assert driven(page) == generation.genomes[13].tolist()
+
+
+@pytest.mark.parametrize(
+    ("algorithm", "says"),
+    [
+        ("goals:mutualism:drawn:raw:best:goal:generation:distance,novelty", "by which tournaments choose parents."),
+        (
+            "goals:patience:drawn:raw:favourite:goal:generation:distance,novelty",
+            "each is the favourite of one, drawn from all 20 objective functions.",
+        ),
+        (
+            "goals:none:drawn:raw:drawn:goal:repertoire:distance,novelty",
+            "each tournament draws its judge from all 20 objective functions, among the latest robots of the {} cells",
+        ),
+        (
+            "both:redrawn:drawn:raw:favourite:mixed:repertoire:novelty,rarity,way",
+            "drawn from all 20 objective functions; goals choose among the latest robots of the {} cells",
+        ),
+        ("random:none::raw:best:weights:repertoire:distance,novelty", "drawn from the latest robots of the {} cells"),
+        ("three:discovery:drawn:rank:best:weights:generation:distance,novelty,rarity", "tournaments choose parents."),
+        ("one:none:2:raw:best:weights:generation:rarity", "Objective function 0 gives all 20 fitnesses, by which"),
+    ],
+)
+def test_a_robot_is_explained_whoever_judges_it(visit, algorithm, says):
+    given = algorithm_of(algorithm)
+    generation = list(safe.generations("maze1", given, 4, QUICK_PARAMETERS))[9]
+    page = visit(f"algorithm={algorithm}&seed=4&{QUICK}&generation=9")
+    page.locator(".panel .status").get_by_text("Generation 9").wait_for()
+    reached = None if generation.repertoire is None else len(generation.repertoire[1])
+    for robot in range(3):
+        look_at(page, robot)
+        text = page.locator(".inspector").inner_text()
+        assert says.format(reached) in text
+        if generation.winners is None:
+            assert "Nobody judges it: parents are drawn" in text
+            continue
+        winner = generation.winners[robot]
+        genes = generation.objectives[winner]
+        assert f"Fitness {short(generation.fitness[robot])}, by objective function {winner}" in text
+        if given.kind == "goal" or (given.kind == "mixed" and winner >= 10):
+            row, column = place_of(genes)
+            away = -int(generation.fitness[robot])
+            assert f"a goal: the place ({row}, {column}), {away} cell" in text
+        else:
+            weighed = generation.components if generation.scaled is None else generation.scaled
+            for letter, gene, value in zip("abcd", genes, weighed[:, robot], strict=False):
+                assert f"{letter} = {short(gene)}" in text
+                assert f"{short(gene * value)} for " in text
+    table = page.get_by_role("table", name="Among the 20 robots")
+    rows = [row.locator("th, td").all_inner_texts() for row in table.locator("tbody tr").all()]
+    assert ["fitness" in row for row in rows].count(True) == (generation.fitness is not None)
+    play_to_the_end(page, page.locator(".panel h2").inner_text())
+    if given.kind != "mixed":
+        assert page.locator(".panel .status").inner_text() == status_of(
+            safe.evolve("maze1", given, 4, QUICK_PARAMETERS), given
+        )
+
+
+PIXELS = """cells => {
+    const canvas = document.querySelector(".panel canvas"), scale = canvas.width / 100;
+    const context = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
+    Object.assign(context.canvas, { width: canvas.width, height: canvas.height });
+    context.drawImage(canvas, 0, 0);
+    return cells.map(([row, column]) =>
+        Array.from(context.getImageData((column + 0.5) * scale - 1, (row + 0.5) * scale - 1, 3, 3).data));
+}"""
+PLACE = {"light": [0x1D, 0x4E, 0xD8], "dark": [0x8F, 0xB4, 0xFF]}  # see playground.css
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("pool", ["generation", "repertoire"])
+def test_goals_are_places_on_the_maze_and_may_be_linked_to_their_favourites(visit, pool, scheme):
+    algorithm = f"goals:redrawn:drawn:raw:favourite:goal:{pool}:distance,novelty"
+    generation = list(safe.generations("maze1", algorithm_of(algorithm), 4, QUICK_PARAMETERS))[9]
+    places = np.array([place_of(goal) for goal in generation.objectives])
+    ends = generation.endpoints if pool == "generation" else generation.repertoire[1]
+    favourites = np.array([ends[np.abs(ends - place).sum(axis=1).argmin()] for place in places])
+
+    page = visit(f"algorithm={algorithm}&seed=4&{QUICK}&generation=9", color_scheme=scheme)
+    page.evaluate("theme => document.documentElement.dataset.theme = theme", scheme)
+    page.locator(".panel .status").get_by_text("Generation 9").wait_for()
+
+    def shown(cells):
+        page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        return np.reshape(page.evaluate(PIXELS, cells.tolist()), (len(cells), 9, 4))[:, :, :3]
+
+    assert "the places of 20 goals," in page.locator(".panel canvas").get_attribute("aria-label")
+    assert page.get_by_text("places that goals name").is_visible()
+    assert page.get_by_role("img", name="Objective functions").count() == 0
+    differences = np.abs(shown(places) - PLACE[scheme]).sum(axis=2).min(axis=1)
+    assert (differences < 40).mean() > 0.8  # others lie below the start, the goal or the best robot
+
+    middles, is_far = (places + favourites) / 2, np.abs(places - favourites).sum(axis=1) > 6
+    assert is_far.sum() > 4
+    linking = page.get_by_label("link places to their favourites")
+    before = shown(middles)
+    linking.check()
+    assert (shown(middles) != before).any(axis=(1, 2))[is_far].mean() > 0.8
+    linking.uncheck()
+    assert (shown(middles) == before).all()
+
+    robot = next(i for i, end in enumerate(generation.endpoints) if (favourites == end).all(axis=1)[is_far].any())
+    is_own = (favourites == generation.endpoints[robot]).all(axis=1)
+    look_at(page, robot)
+    alone = shown(middles)
+    linking.check()
+    together = shown(middles)
+    assert (alone == together).all(axis=(1, 2))[is_far & is_own].all()  # its own places are linked all the time
+    assert (alone != together).any(axis=(1, 2))[is_far & ~is_own].any()
+
+
+def test_without_goals_there_are_no_places(visit):
+    page = visit(f"algorithm=safe&seed=4&{QUICK}&generation=2")
+    panel(page, "SAFE").get_by_text("Generation 2").wait_for()
+    assert page.get_by_label("link places to their favourites").count() == 1
+    assert not page.get_by_label("link places to their favourites").is_visible()
+    assert not page.get_by_text("places that goals name").is_visible()
+    assert "goals" not in page.locator(".panel canvas").get_attribute("aria-label")
 
 
 def test_a_click_selects_the_robot_that_ended_there(visit):

@@ -62,7 +62,9 @@ def test_the_three_kinds_differ_by_what_places_are_bred_for():
         "redrawn": "redrawn",
         "mutualism, best score": "mutualism",
     }
-    alike = {replace(e.algorithm, name="any", rating="none") for (_, kind), e in design.cells.items() if "," not in kind}
+    alike = {
+        replace(e.algorithm, name="any", rating="none") for (_, kind), e in design.cells.items() if "," not in kind
+    }
     assert len(alike) == 1
     assert DECIDING != EXPLORING
 

@@ -6,8 +6,13 @@ from urllib.parse import unquote
 import numpy as np
 
 import safe
-from safe.judges import RATINGS, SCALINGS
+from safe.algorithms import WEIGHABLE
+from safe.judges import KINDS, RATINGS, SCALINGS
 from safe.operators import JUDGINGS
+from safe.repertoire import POOLS
+
+CHOICES = {"rating": RATINGS, "scaling": SCALINGS, "judging": JUDGINGS, "kind": KINDS, "pool": POOLS}
+LATER = "scaling", "judging", "kind", "pool", "components"  # choices, behind the objective functions
 
 
 def values_of(address):
@@ -30,12 +35,20 @@ def algorithm_of(text):
     if ":" not in text:
         return safe.ALGORITHMS[text]
     name, rating, objectives, *more = text.split(":")
-    numbers = [float(number) for number in objectives.split(",")] if objectives not in ("drawn", "") else []
-    pairs = None if objectives == "drawn" else list(zip(numbers[::2], numbers[1::2], strict=True))
-    choices = [(RATINGS, rating), *zip((SCALINGS, JUDGINGS), more, strict=bool(more))]
-    return safe.Algorithm(
-        name, pairs, *(next(choice for choice in allowed if choice.split()[0] == code) for allowed, code in choices)
-    )
+    codes = {"rating": rating, **dict(zip(LATER, more, strict=False))}
+    assert len(codes) in (1, 3, 6)
+    choices = {field: choice_of(field, code) for field, code in codes.items()}
+    if objectives == "drawn":
+        return safe.Algorithm(name, **choices)
+    genes = [float(number) for number in objectives.split(",")] if objectives else []
+    width = safe.Algorithm(name, **choices).genes if genes else 1
+    return safe.Algorithm(name, [genes[i : i + width] for i in range(0, len(genes), width)], **choices)
+
+
+def choice_of(field, code):
+    if field == "components":
+        return tuple(next(name for name in WEIGHABLE if name.split()[-1] == one) for one in code.split(","))
+    return next(choice for choice in CHOICES[field] if choice.split()[0] == code)
 
 
 def seed_of(text):

@@ -1,6 +1,7 @@
 """The playground's page as tests see it: the views, short runs, and what the page says."""
 
 import re
+from decimal import ROUND_HALF_UP, Context
 
 import safe
 from tests.helpers.addresses import maze_of
@@ -23,14 +24,31 @@ def play_to_the_end(page, *titles):
     page.get_by_role("button", name="Play").wait_for()
 
 
-def status_of(run):
+WORDS = {"1 / distance": "closeness", "1 / way": "closeness on the way"}  # for components, if not their own
+
+
+def short(value):
+    """A number to three digits, and halves upwards, as in JavaScript."""
+    return f"{float(Context(prec=3, rounding=ROUND_HALF_UP).create_decimal_from_float(float(value))):g}"
+
+
+def place_of(goal, shape=(100, 100)):
+    """The cell that a goal names in a maze of this shape."""
+    return tuple(min(int(gene * side), side - 1) for gene, side in zip(goal, shape, strict=True))
+
+
+def status_of(run, algorithm="safe"):
     """What the page says of a run that is over."""
+    algorithm = safe.algorithms.get_algorithm(algorithm)
     cells = "1 cell" if run.distance == 1 else f"{run.distance} cells"
     outcome, fitness = "Success" if run.success else "No success", ""
-    if run.coefficients:
+    if run.coefficients or algorithm.pool == "repertoire":
         outcome += f" in generation {run.generation}" if run.success else f" in {run.generation + 1} generations"
-        a, b = (f"{float(f'{c:.3g}'):g}" for c in run.coefficients)
-        fitness = f" Its fitness: {a} · closeness + {b} · novelty."
+    if algorithm.kind == "goal":
+        fitness = f" Its fitness: how near it came to the place {place_of(run.coefficients)}."
+    elif run.coefficients:
+        pairs = zip(run.coefficients, algorithm.components, strict=True)
+        fitness = f" Its fitness: {' + '.join(f'{short(c)} · {WORDS.get(name, name)}' for c, name in pairs)}."
     return f"{outcome}: best {cells} from the goal, after {run.evaluations} robots.{fitness}"
 
 

@@ -8,9 +8,11 @@ import numpy as np
 
 import safe
 from safe import Algorithm, Experiment, Maze, Parameters, load_maze
-from safe.judges import RATINGS, SCALINGS
+from safe.algorithms import COMPONENTS
+from safe.judges import KINDS, RATINGS, SCALINGS
 from safe.novelty import ADMISSIONS
 from safe.operators import JUDGINGS
+from safe.repertoire import POOLS
 
 RUNS = 200
 
@@ -93,13 +95,71 @@ def runs_of_every_kind():
     ]
 
 
+FACTORS = {
+    "kind": KINDS,
+    "rating": RATINGS,
+    "judging": JUDGINGS,
+    "pool": POOLS,
+    "scaling": SCALINGS,
+    "components": [
+        COMPONENTS,
+        ("novelty", "1 / distance"),
+        ("path rarity",),
+        ("1 / way", "novelty"),
+        ("1 / distance", "novelty", "path rarity"),
+        ("path rarity", "1 / way", "1 / distance", "novelty"),
+    ],
+    "admission": ADMISSIONS,
+}
+WHO_CHOOSES_WHOM = 4  # the first of the factors, of which all combinations occur
+
+
+def combinations():
+    """All combinations of choices that the package takes, each as a tuple with a value for each of FACTORS."""
+    for *choices, components in itertools.product(*itertools.islice(FACTORS.values(), 6)):
+        try:
+            Algorithm("mine", None, **dict(zip(FACTORS, (*choices, components), strict=False)))
+        except ValueError:
+            continue
+        for admission in ADMISSIONS:
+            yield *choices, components, admission
+
+
+@functools.cache
+def covering_combinations():
+    """Few combinations among which are all pairs of choices, and all combinations of who chooses whom."""
+
+    def parts(combination):
+        return {combination[:WHO_CHOOSES_WHOM], *itertools.combinations(enumerate(combination), 2)}
+
+    combined = list(combinations())
+    shuffled = [combined[i] for i in np.random.default_rng(2021).permutation(len(combined))]
+    taken, covered = [], set()
+    for least in (16, 8, 4, 1):  # first those that cover many parts
+        for combination in shuffled:
+            if len(parts(combination) - covered) >= least:
+                taken.append(combination)
+                covered |= parts(combination)
+    return taken
+
+
+def drawn_objectives(rng, kind, genes):
+    """Objective functions as a user might write them."""
+    if kind == "weights":
+        return [(1.0,) * genes, *rng.uniform(-0.2, 1, (3, genes)).tolist()]
+    return [(1.0,) * genes, (0.0,) * genes, *rng.random((4, genes)).tolist()]
+
+
 @functools.cache
 def runs_with_choices():
-    """The arguments of a run with each combination of choices, most of them beyond the paper."""
+    """The arguments of runs with choices, most of them beyond the paper."""
     rng = np.random.default_rng(2020)
     papers = [load_maze("maze1"), load_maze("maze2")]
+    nobody = [("weights", "none", "best score", "repertoire", "raw", COMPONENTS, admission) for admission in ADMISSIONS]
     runs = []
-    for admission, *choices in itertools.product(ADMISSIONS, RATINGS, SCALINGS, JUDGINGS):
+    for combination in [*covering_combinations(), *nobody[:3]]:
+        *choices, admission = combination
+        choices = dict(zip(FACTORS, choices, strict=False))
         parameters = drawn_parameters(rng)
         parameters = replace(
             parameters,
@@ -107,9 +167,11 @@ def runs_with_choices():
             admission=admission,
             admitted=int(rng.integers(1, 30)),
             threshold=float(rng.choice([0.0, 0.5, 6.0, 20.0])),
+            patience=int(rng.integers(1, 5)),
         )
-        given = [(1, 0), *rng.uniform(-0.2, 1, (3, 2)).tolist()]
-        algorithm = Algorithm("mine", given if rng.random() < 0.4 else None, *choices)
+        algorithm = Algorithm("mine", [] if combination in nobody else None, **choices)
+        if algorithm.objectives is None and rng.random() < 0.4:
+            algorithm = replace(algorithm, objectives=drawn_objectives(rng, algorithm.kind, algorithm.genes))
         maze = drawn_maze(rng) if rng.random() < 0.4 else papers[rng.integers(2)]
         runs.append((maze, algorithm, drawn_seed(rng), parameters))
     return runs

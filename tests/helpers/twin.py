@@ -118,6 +118,10 @@ def as_in_engine(run: Run) -> dict:
     fields = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in vars(run).items()}
     if isinstance(run, Generation):
         fields["objectiveFitness"] = fields.pop("objective_fitness")
+        fields["chosenBy"] = fields.pop("chosen_by")
+        if run.repertoire is not None:
+            genomes, endpoints = run.repertoire
+            fields["repertoire"] = {"genomes": genomes.tolist(), "endpoints": endpoints.tolist()}
         for name, key in (("archive", "archive"), ("objective_archive", "objectiveArchive")):
             points, scores = fields.pop(name)
             fields[key] = {"points": points.tolist(), "scores": scores.tolist()}

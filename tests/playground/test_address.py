@@ -16,7 +16,7 @@ from tests.helpers.twin import NODE, needs_node
 
 FEW = safe.Parameters(population=20, objectives=10, generations=3, elites=0, mutation=0.25)
 MORE = safe.Parameters(20, 10, 3, elites=0, admission="threshold", admitted=7, threshold=0.00001)
-LATER = safe.Parameters(20, 10, 3, elites=0, archive=30, admission="after scoring")
+LATER = safe.Parameters(20, 10, 3, elites=0, archive=30, admission="after scoring", patience=2)
 
 ALGORITHMS = [
     *safe.ALGORITHMS.values(),
@@ -27,7 +27,36 @@ ALGORITHMS = [
     safe.Algorithm("novelty", [(0, 1)], scaling="rank"),
     safe.Algorithm("ratings", None, "spearman", "maximum", "drawn judge"),
     safe.Algorithm("judged", [(1, 0), (0, 1)], "pearson", judging="drawn judge"),
+    safe.Algorithm("goals", None, "mutualism", judging="favourite", kind="goal"),
+    safe.Algorithm(
+        "places", [(0.5, 1), (1 / 3, 1e-7)], "patience", judging="drawn judge", kind="goal", pool="repertoire"
+    ),
+    safe.Algorithm("both", None, "redrawn", "rank", "favourite", "mixed", ("novelty", "path rarity"), "repertoire"),
+    safe.Algorithm("three", [(1, 2, 3), (0, 1, 0)], components=("1 / way", "path rarity", "1 / distance")),
+    safe.Algorithm("one", None, "discovery", components=("path rarity",)),
+    safe.Algorithm("four", None, "shuffled", components=("1 / distance", "novelty", "path rarity", "1 / way")),
+    safe.Algorithm("elites", [], pool="repertoire"),
     safe.Algorithm("a: ½, b: 50 % & #1=/", [(1, 0)]),
+]
+
+
+SAME = [
+    "safe:genotypic:drawn",
+    "safe:genotypic:drawn:raw:best",
+    "safe:genotypic:drawn:raw:best:weights:generation:distance,novelty",
+]
+WRONG = [
+    "none",
+    "by:1,0",
+    "none:1,0:rank",
+    "none:1,0:log:best",
+    "none:1,0:raw:best:weights",
+    "none:1,0:raw:best:goals:generation:distance,novelty",
+    "none:1,0:raw:best:weights:all:distance,novelty",
+    "none:1,0:raw:best:weights:generation:",
+    "none:1,0:raw:best:weights:generation:distance,1",
+    "none:1,0:raw:best:weights:generation:distance,novelty,way",
+    "none:1,0:raw:best:weights:generation:distance,novelty:1",
 ]
 
 
@@ -60,6 +89,12 @@ def test_an_address_is_readable():
     choosing = safe.Experiment(judged, "maze1", parameters=safe.Parameters(admission="random", admitted=9))
     address = f"algorithm=judged:genotypic:drawn:raw:drawn&seed=0x{choosing.digest}/0&admission=random&admitted=9"
     assert run_address(choosing, 0) == f"view=watch&maze=maze1&{address}"
+    goals = safe.Algorithm("goals", None, "mutualism", judging="favourite", kind="goal", pool="repertoire")
+    exploring = safe.Experiment(goals, "maze1", parameters=safe.Parameters(patience=3))
+    address = "algorithm=goals:mutualism:drawn:raw:favourite:goal:repertoire:distance,novelty"
+    assert run_address(exploring, 0) == f"view=watch&maze=maze1&{address}&seed=0x{exploring.digest}/0&patience=3"
+    weighing = safe.Experiment(safe.Algorithm("w", [(1, 2)], components=("path rarity", "1 / way")), "maze1")
+    assert run_address(weighing, 0)[22:].startswith("algorithm=w:none:1.0,2.0:raw:best:weights:generation:rarity,way&")
 
 
 @needs_node
@@ -69,11 +104,8 @@ def test_the_page_reads_and_writes_the_same_addresses():
     ]
     addresses = [run_address(experiment, 1) for experiment in experiments]
     known = "view=watch&maze=maze1&seed=1&algorithm="
-    same = [f"{known}{algorithm}" for algorithm in ("safe:genotypic:drawn:raw:best", "safe:genotypic:drawn")]
-    wrong = [
-        f"{known}mine:{rest}"
-        for rest in ("none", "by:1,0", "none:1,0:rank", "none:1,0:log:best", "none:1,0:raw:best:1")
-    ]
+    same = [f"{known}{algorithm}" for algorithm in SAME]
+    wrong = [f"{known}mine:{rest}" for rest in WRONG]
     script = f"""{bundle.script(("address.js",))}
         const {{ readAddress, writeAddress }} = playground();
         const told = (text) => {{
@@ -92,10 +124,11 @@ def test_the_page_reads_and_writes_the_same_addresses():
         assert safe.Parameters(**parameters) == experiment.parameters
         assert list(values_of(written)) == list(values_of(address))
         assert algorithm_of(values_of(written)["algorithm"]).content == experiment.algorithm.content
-    assert found[0] == found[1]
-    assert [message.split(";")[0] for message in found[2:]] == [
-        "algorithm must be a name, or name:rating:a,b,..., perhaps with :scaling:judging"
-    ] * 5
+    assert found[: len(SAME)] == [found[0]] * len(SAME)
+    refusal = (
+        "algorithm must be a name, or name:rating:a,b,..., perhaps with :scaling:judging, and then :kind:pool:compo"
+    )
+    assert [message[: len(refusal)] for message in found[len(SAME) :]] == [refusal] * len(WRONG)
 
 
 @given(maze=mazes(), controller=controllers())

@@ -10,9 +10,11 @@ from hypothesis import strategies as st
 
 import safe
 from safe import Algorithm, Maze, NoveltyArchive, Parameters, checks, load_maze
+from safe.algorithms import WEIGHABLE
 from safe.maze import ways_to_goal
 from safe.maze_files import MAZE_FOLDER, parse_maze, text_of
 from safe.novelty import ADMISSIONS, METRICS
+from safe.operators import JUDGINGS
 from tests.helpers import fuzz, golden, maze_texts, oracle, record
 from tests.helpers.reference import reference_endpoints
 from tests.helpers.runs import runs_of_every_kind, runs_with_choices
@@ -216,6 +218,9 @@ CHOICES = [
     {"scaling": "maximum"},
     {"scaling": "rank"},
     {"judging": "drawn judge"},
+    {"judging": "favourite"},
+    *({"rating": rating} for rating in ("mutualism", "competition", "discovery", "shuffled", "redrawn")),
+    {"components": WEIGHABLE},
     {"rating": "pearson", "judging": "drawn judge"},
     {"rating": "spearman", "judging": "drawn judge"},
     *({"admission": admission} for admission in ADMISSIONS[1:]),
@@ -223,7 +228,7 @@ CHOICES = [
 
 
 @pytest.mark.parametrize("maze", ["maze1", "maze2"])
-@pytest.mark.parametrize("choice", CHOICES, ids=lambda choice: ", ".join(choice.values()))
+@pytest.mark.parametrize("choice", CHOICES, ids=lambda choice: ", ".join(map(str, choice.values())))
 def test_every_generation_with_a_choice_until_the_archive_is_full_and_beyond(twin, choice, maze):
     choice = {"rating": "genotypic novelty"} | choice
     rules = {"admission": choice.pop("admission")} if "admission" in choice else {}
@@ -232,6 +237,25 @@ def test_every_generation_with_a_choice_until_the_archive_is_full_and_beyond(twi
     (found,) = twin.results([run_of("generations", *run)])
     assert found == [as_in_engine(generation) for generation in safe.generations(*run)]
     assert len(found[-1]["archive"]["points"]) == 25
+
+
+GOALS = [
+    {"rating": rating, "judging": judging, "kind": "goal", "pool": pool}
+    for rating in ("none", "mutualism", "competition", "discovery", "patience", "redrawn")
+    for judging, pool in (("favourite", "generation"), ("favourite", "repertoire"), ("drawn judge", "repertoire"))
+]
+MIXED = {"rating": "redrawn", "judging": "favourite", "kind": "mixed", "pool": "repertoire"}
+NOBODY = {"objectives": [], "pool": "repertoire"}
+
+
+@pytest.mark.parametrize("choice", [*GOALS, MIXED, NOBODY], ids=lambda choice: ", ".join(map(str, choice.values())))
+def test_every_generation_with_goals_and_a_repertoire_of_many_cells(twin, choice):
+    parameters = Parameters(generations=25, success_distance=0, patience=3)
+    run = load_maze("maze2"), Algorithm("mine", **choice), 7, parameters
+    (found,) = twin.results([run_of("generations", *run)])
+    assert found == [as_in_engine(generation) for generation in safe.generations(*run)]
+    if choice.get("pool") == "repertoire":
+        assert len(found[-1]["repertoire"]["endpoints"]) > 200
 
 
 @settings(max_examples=30)
@@ -282,7 +306,7 @@ BAD_ARGUMENTS = [
     *({"algorithm": name} for name in ("saef", "", "constructor", None)),
     {"algorithm": ("mine", None, "by taste")},
     {"algorithm": ("mine", None, "pearson", "log")},
-    {"algorithm": ("mine", None, "none", "raw", "favourite")},
+    {"algorithm": ("mine", None, "none", "raw", "favourites")},
     {"algorithm": ("mine", [(1, 0, 0)], "none", "raw", None)},
     {"algorithm": ("mine", [(1, 0)] * 3, "spearman", "rank", "drawn judge")},
     {"algorithm": ("mine", [(1, 0)] * 2, "pearson")},
@@ -291,6 +315,42 @@ BAD_ARGUMENTS = [
     {"algorithm": ("mine", [(1, 0)] * 3, "genotypic novelty")},
     {"algorithm": ("mine", [], "genotypic novelty")},
     {"algorithm": ("mine", [(1, 0)] * 2, "genotypic novelty")},
+    *(
+        {"algorithm": {"name": "mine", **fields}}
+        for fields in (
+            *({"kind": kind} for kind in ("goals", "", None)),
+            *({"pool": pool} for pool in ("archive", None)),
+            *(
+                {"components": components}
+                for components in ("novelty", [], ["novelty"] * 2, ["distance"], ["1 / way", None], None, 1)
+            ),
+            {"kind": "goal", "scaling": "rank"},
+            {"kind": "goal", "components": ["novelty"]},
+            {"kind": "goal", "components": ["1 / distance", "novelty", "path rarity"]},
+            {"kind": "goal", "objectives": [(0, 1), (0.5, 1.01)]},
+            {"kind": "goal", "objectives": [(0, 1, 0)]},
+            {"kind": "goal", "objectives": []},
+            {"kind": "goal", "objectives": [(0, 1)] * 3, "rating": "mutualism"},
+            {"kind": "goal", "objectives": [(0, 1)] * 3, "rating": "patience"},
+            {"kind": "goal", "objectives": [(0, 1)] * 2, "rating": "patience"},
+            {"kind": "goal", "pool": "repertoire"},
+            {"kind": "mixed", "objectives": []},
+            {"kind": "mixed", "objectives": [(0, 1)] * 3},
+            {"kind": "mixed", "objectives": [(0, -0.5)] * 4},
+            {"kind": "mixed", "objectives": [(0, 1)] * 2, "rating": "redrawn"},
+            *({"kind": "mixed", "rating": rating} for rating in ("pearson", "discovery", "patience")),
+            *({"kind": "mixed", "pool": "repertoire", "judging": judging} for judging in JUDGINGS[:2]),
+            {"rating": "patience"},
+            {"pool": "repertoire"},
+            {"pool": "repertoire", "judging": "favourite"},
+            {"pool": "repertoire", "objectives": [(1, 0)]},
+            {"pool": "repertoire", "objectives": [], "judging": "favourite"},
+            {"pool": "repertoire", "objectives": [], "kind": "goal", "judging": "favourite"},
+            {"pool": "repertoire", "objectives": [], "rating": "redrawn"},
+            {"components": ["novelty"], "objectives": [(1, 0)]},
+            {"components": ["novelty", "1 / way", "path rarity"], "objectives": [(1, 0)]},
+        )
+    ),
     *({"seed": seed} for seed in (-1, 0.5, None, [], [1, -2])),
     *({"parameters": {"population": value}} for value in (0, 51, 2, 1.5, "1", None, 10**9)),
     *({"parameters": {"objectives": value}} for value in (-2, 3, 2)),
@@ -306,6 +366,7 @@ BAD_ARGUMENTS = [
     *({"parameters": {"admitted": value}} for value in (0, 1.5, 10**9)),
     *({"parameters": {"threshold": value}} for value in (-0.5, 10**7, "6", None)),
     {"parameters": {"threshold": -1, "admission": "constructor"}},
+    *({"parameters": {"patience": value}} for value in (0, 1.5, None, 10**7)),
 ]
 
 

@@ -1,6 +1,15 @@
 // The state of the playground as the part of a page's address behind the #, and back (see safe/playground/address.py).
 
-import { ALGORITHMS, checkedAlgorithm, checkedParameters, CHOICES, PARAMETERS } from "./algorithms.js";
+import {
+  ALGORITHMS,
+  checkedAlgorithm,
+  checkedParameters,
+  CHOICES,
+  genesOf,
+  PAPERS,
+  PARAMETERS,
+  WEIGHABLE,
+} from "./algorithms.js";
 import { checkedChoice, checkedInteger, checkedRow, InputError, MOST, shown } from "./checks.js";
 import { LONGEST_SIDE, makeMaze } from "./maze.js";
 import { isNamed, namedMaze } from "./named_mazes.js";
@@ -96,39 +105,48 @@ function readNumber(name, text) {
   return Number(text);
 }
 
+// Behind the objective functions, the choices of an algorithm follow in these steps, each left out if it and all behind
+// it are the paper's.
+const LATER = [["scaling", "judging"], ["kind", "pool", "components"]];
+
 function readAlgorithm(text) {
   const [name, rating, objectives, ...more] = text.split(":");
   if (rating === undefined) return checkedAlgorithm(name);
-  const coefficients = objectives === "drawn" ? null : objectives ? objectives.split(",").map(readDecimal) : [];
-  const codes = [rating, ...(more.length > 0 ? more : ["raw", "best"])];
-  const choices = Object.keys(CHOICES).map((name, i) => [name, choiceOf(name, codes[i])]);
-  const isWhole = objectives !== undefined && codes.length === choices.length &&
-    choices.every(([, choice]) => choice) &&
-    (coefficients === null || coefficients.length % 2 === 0);
-  if (!isWhole) {
+  const genes = objectives === "drawn" ? null : objectives ? objectives.split(",").map(readDecimal) : [];
+  const fields = LATER.flat().slice(0, more.length), isStep = [0, 2, 5].includes(more.length);
+  const choices = { rating: choiceOf("rating", rating) };
+  fields.forEach((field, i) => (choices[field] = choiceOf(field, more[i])));
+  const areKnown = Object.values(choices).every((choice) => choice);
+  const width = areKnown ? genesOf({ ...PAPERS, ...choices }) : NaN;
+  if (!areKnown || !isStep || objectives === undefined || (genes?.length ?? 0) % width > 0) {
     throw new InputError(
-      `algorithm must be a name, or name:rating:a,b,..., perhaps with :scaling:judging; got ${shown(text)}`,
+      "algorithm must be a name, or name:rating:a,b,..., perhaps with :scaling:judging, and then :kind:pool:components; " +
+        `got ${shown(text)}`,
     );
   }
-  const pairs = coefficients?.flatMap((a, i) => (i % 2 ? [] : [[a, coefficients[i + 1]]])) ?? null;
-  return checkedAlgorithm({ name, objectives: pairs, ...Object.fromEntries(choices) });
+  const rows = genes?.flatMap((_, i) => (i % width ? [] : [genes.slice(i, i + width)])) ?? null;
+  return checkedAlgorithm({ name, objectives: rows, ...choices });
 }
 
 function writeAlgorithm(algorithm) {
-  const { name, objectives, rating, scaling, judging } = algorithm;
+  const { name, objectives, rating } = algorithm;
   if (ALGORITHMS[name] === algorithm) return name;
-  const parts = [name, codeOf(rating), objectives?.flat().join() ?? "drawn"];
-  const isPapers = scaling === CHOICES.scaling[0] && judging === CHOICES.judging[0];
-  return [...parts, ...(isPapers ? [] : [codeOf(scaling), codeOf(judging)])].join(":");
+  const steps = LATER.map((fields) => fields.map((field) => codeOf(field, algorithm[field])));
+  const papers = LATER.map((fields) => fields.map((field) => codeOf(field, PAPERS[field])));
+  while (steps.length > 0 && `${steps.at(-1)}` === `${papers[steps.length - 1]}`) steps.pop();
+  return [name, codeOf("rating", rating), objectives?.flat().join() ?? "drawn", ...steps.flat()].join(":");
 }
 
-/** The word that stands for a choice: its first. */
-function codeOf(choice) {
-  return choice.split(" ")[0];
+/** What stands for a choice: its first word; for components, the last word of each. */
+function codeOf(field, choice) {
+  return field === "components" ? choice.map((name) => name.split(" ").at(-1)).join() : choice.split(" ")[0];
 }
 
-function choiceOf(name, code) {
-  return CHOICES[name].find((choice) => codeOf(choice) === code);
+/** The choice for which a code stands; undefined or null if there is none. */
+function choiceOf(field, code) {
+  if (field !== "components") return CHOICES[field].find((choice) => codeOf(field, choice) === code);
+  const names = code.split(",").map((one) => WEIGHABLE.find((name) => codeOf(field, [name]) === one));
+  return names.every((name) => name) ? names : null;
 }
 
 function readMaze(text) {

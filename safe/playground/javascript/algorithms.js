@@ -1,19 +1,41 @@
 // The paper's algorithms and its Table 1, as data, and the choices beyond the paper (see safe/algorithms.py).
 //
-// objectives: the objective functions [a, b] of the first generation; null draws as many as the parameters say.
-// rating: how objective functions are rated, and so bred; with "none" they stay as they are.
-// scaling: of what they weigh. judging: who selects parents.
+// objectives: the objective functions of the first generation; null draws as many as the parameters say.
+// rating: how objective functions are rated, and so bred or drawn anew; with "none" they stay as they are.
+// scaling: of what they weigh. judging: who selects parents. kind: do they weigh, or name a cell to reach?
+// components: what they weigh. pool: from which parents are taken.
 
-import { checkedChoice, checkedInteger, checkedNumber, checkedRows, InputError, MOST, shown } from "./checks.js";
-import { RATINGS, SCALINGS } from "./judges.js";
+import {
+  checkedChoice,
+  checkedChoices,
+  checkedInteger,
+  checkedNumber,
+  checkedRows,
+  InputError,
+  MOST,
+  shown,
+  shownTuple,
+} from "./checks.js";
+import { KINDS, SCALINGS } from "./judges.js";
 import { ADMISSIONS, ARCHIVE_CAPACITY, K } from "./novelty.js";
-import { JUDGINGS } from "./operators.js";
+import { RATINGS } from "./ratings.js";
 import { STEPS } from "./robot.js";
+import { JUDGINGS, POOLS } from "./selection.js";
 
-export const COMPONENTS = ["1 / distance", "novelty"]; // what an objective function weighs
-export const GOAL = 0;
-export const NOVELTY = 1;
-export const CHOICES = { rating: RATINGS, scaling: SCALINGS, judging: JUDGINGS }; // of an algorithm
+export const COMPONENTS = ["1 / distance", "novelty"]; // what an objective function weighs in the paper
+export const WEIGHABLE = [...COMPONENTS, "path rarity", "1 / way"]; // what it may weigh
+// of an algorithm, in the order of addresses
+export const CHOICES = { rating: RATINGS, scaling: SCALINGS, judging: JUDGINGS, kind: KINDS, pool: POOLS };
+
+export const PAPERS = { // what an algorithm is unless it says otherwise
+  objectives: null,
+  rating: RATINGS[0],
+  scaling: SCALINGS[0],
+  judging: JUDGINGS[0],
+  kind: KINDS[0],
+  components: COMPONENTS,
+  pool: POOLS[0],
+};
 
 export const ALGORITHMS = {
   standard: completed({ name: "standard", objectives: [[1, 0]] }),
@@ -23,9 +45,11 @@ export const ALGORITHMS = {
   random: completed({ name: "random", objectives: [] }),
 };
 
-/** An algorithm with all that it does not say: the first of each of CHOICES. */
-function completed({ name, objectives = null, rating = RATINGS[0], scaling = SCALINGS[0], judging = JUDGINGS[0] }) {
-  return { name, objectives, rating, scaling, judging };
+/** An algorithm with all that it does not say. */
+function completed({ name, ...fields }) {
+  const whole = { name, ...PAPERS };
+  for (const field of Object.keys(PAPERS)) if (fields[field] !== undefined) whole[field] = fields[field];
+  return whole;
 }
 
 export const PARAMETERS = {
@@ -44,26 +68,81 @@ export const PARAMETERS = {
   admission: ADMISSIONS[0], // what enters the archive of end points
   admitted: 5, // solutions that enter it in each generation, with "random"
   threshold: 6, // novelty above which they enter it at first, with "threshold"
+  patience: 10, // generations after which a goal to which nothing comes nearer is drawn anew, with "patience"
 };
 export const PROBABILITIES = ["crossover", "mutation"];
 const MAY_BE_ZERO = ["elites", "archive", "success_distance"];
 
-/** An algorithm, checked: one of ALGORITHMS by its name, or { name, objectives, rating, scaling, judging }. */
+/** How many genes an objective function of an algorithm has. */
+export function genesOf({ kind, components }) {
+  return { weights: components.length, goal: 2, mixed: Math.max(2, components.length) }[kind];
+}
+
+/** An algorithm, checked: one of ALGORITHMS by its name, or { name, objectives, ... } with choices by their names. */
 export function checkedAlgorithm(algorithm) {
   if (typeof algorithm !== "object" || algorithm === null) {
     return ALGORITHMS[checkedChoice("algorithm", algorithm, Object.keys(ALGORITHMS))];
   }
-  const whole = completed(algorithm), { objectives, rating } = whole;
+  const whole = completed(algorithm);
   for (const [choice, allowed] of Object.entries(CHOICES)) checkedChoice(choice, whole[choice], allowed);
-  if (objectives !== null) {
-    checkedRows("objectives", objectives, COMPONENTS.length);
-    if (rating !== "none" && (objectives.length === 0 || objectives.length % 2)) {
-      throw new InputError(
-        `objectives must be even in number if they evolve; got ${objectives.length}`,
-      );
-    }
-  }
+  checkedChoices("components", whole.components, WEIGHABLE);
+  if (whole.objectives !== null) checkObjectives(whole);
+  checkTogether(whole);
   return whole;
+}
+
+function checkObjectives(algorithm) {
+  const { objectives, rating, kind } = algorithm, count = objectives?.length;
+  checkedRows("objectives", objectives, genesOf(algorithm), ...(kind === "weights" ? [] : [0, 1]));
+  if (rating !== "none" && (count === 0 || count % 2)) {
+    throw new InputError(`objectives must be even in number if they evolve; got ${count}`);
+  }
+  if (kind === "mixed" && count % 2) {
+    throw new InputError(`objectives must be even in number if they are mixed; got ${count}`);
+  }
+}
+
+/** Do the choices of an algorithm go together? */
+function checkTogether(algorithm) {
+  const { objectives, rating, kind, pool } = algorithm;
+  const check = (name, allowed, reason) => {
+    const value = algorithm[name], show = Array.isArray(value) ? shownTuple : shown;
+    if (allowed.some((one) => areEqual(one, value))) return;
+    const options = [allowed.slice(0, -1).map(show).join(", "), show(allowed.at(-1))].filter((text) => text);
+    throw new InputError(`${name} must be ${options.join(" or ")} ${reason}; got ${show(value)}`);
+  };
+  if (objectives?.length === 0) {
+    check("kind", ["weights"], "without objective functions");
+    if (pool === "repertoire") check("judging", ["best score"], "without objective functions");
+    return;
+  }
+  if (kind === "goal") {
+    check("scaling", ["raw"], "for goals, which weigh nothing");
+    check("components", [COMPONENTS], "for goals, which weigh nothing");
+  }
+  if (kind === "mixed") check("rating", ratingsOf(kind), "for a mixture with goals");
+  if (rating === "patience") check("kind", ["goal"], "for a rating by patience");
+  if (pool === "repertoire") {
+    check("kind", ["goal", "mixed"], "to choose from the repertoire");
+    check("judging", judgingsOf(algorithm), "to choose from the repertoire");
+  }
+}
+
+/** The ratings that go with a kind of objective function. */
+function ratingsOf(kind) {
+  if (kind === "mixed") return ["none", "redrawn"];
+  return kind === "goal" ? RATINGS : RATINGS.filter((rating) => rating !== "patience");
+}
+
+/** By what judging the objective functions of an algorithm may choose. */
+function judgingsOf({ kind, pool }) {
+  if (pool === "generation") return JUDGINGS;
+  return kind === "goal" ? ["drawn judge", "favourite"] : ["favourite"];
+}
+
+/** Are these equal, as JSON writes them? */
+function areEqual(list, other) {
+  return JSON.stringify(list) === JSON.stringify(other);
 }
 
 /** The one of ALGORITHMS that an algorithm is but for its choices; undefined if it is none of them. */
@@ -71,18 +150,37 @@ export function baseOf({ name, objectives }) {
   return Object.values(ALGORITHMS).find((base) => base.name === name && `${base.objectives}` === `${objectives}`);
 }
 
-/** May a reader change this choice of an algorithm? With nobody to judge, or to evolve, there is nothing to choose. */
+/** May a reader change this choice of an algorithm, or its components? Only if it means something there. */
 export function hasChoice(algorithm, choice) {
+  const { objectives, kind } = algorithm;
+  if (objectives?.length === 0) return choice === "pool"; // nobody judges
   if (choice === "rating") return (baseOf(algorithm) ?? algorithm).rating !== "none";
-  return algorithm.objectives?.length !== 0;
+  if (choice === "scaling") return kind !== "goal";
+  if (choice === "pool") return kind !== "weights";
+  if (choice === "components") return objectives === null && kind !== "goal"; // given ones have their coefficients
+  return choice === "judging" || objectives === null;
 }
 
-/** An algorithm with other choices, those that it has; one of ALGORITHMS if it becomes that. */
+/** An algorithm with other choices, those that it has; one of ALGORITHMS if it becomes that.
+ *
+ * The kind of objective function comes first, then the pool: what does not go with these becomes what does. */
 export function withChoices(algorithm, choices) {
-  const own = Object.entries(choices).filter(([choice]) => hasChoice(algorithm, choice));
-  const changed = checkedAlgorithm({ ...algorithm, ...Object.fromEntries(own) });
-  const isChanged = (other) => JSON.stringify(other) === JSON.stringify(changed);
-  return Object.values(ALGORITHMS).find(isChanged) ?? changed;
+  const changed = { ...algorithm };
+  for (const [choice, value] of Object.entries(choices)) if (hasChoice(changed, choice)) changed[choice] = value;
+  if (changed.objectives?.length !== 0) {
+    const { kind } = changed;
+    if (kind === "weights") changed.pool = POOLS[0];
+    if (kind === "goal") Object.assign(changed, { scaling: SCALINGS[0], components: COMPONENTS });
+    if (!ratingsOf(kind).includes(changed.rating)) changed.rating = kind === "mixed" ? "redrawn" : RATINGS[1];
+    if (!judgingsOf(changed).includes(changed.judging)) changed.judging = "favourite";
+  }
+  const checked = checkedAlgorithm(changed);
+  return Object.values(ALGORITHMS).find((other) => areEqual(other, checked)) ?? checked;
+}
+
+/** The values of a choice that go with the kind and the pool of an algorithm. */
+export function optionsOf(algorithm, choice) {
+  return CHOICES[choice].filter((value) => withChoices(algorithm, { [choice]: value })[choice] === value);
 }
 
 /** All parameters, checked: these, and the others as in the paper. */

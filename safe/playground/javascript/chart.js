@@ -54,15 +54,15 @@ export class ObjectiveSquare {
     this.element = make("figure", { class: "chart square" }, caption, this.drawing);
   }
 
-  /** groups: for each algorithm { label, kind, objectives: [[a, b]], winners, marked }; `winners` are the indices of
-   * those that gave the solutions their fitness, `marked` is that of one to mark, or null. */
+  /** groups: for each algorithm { label, kind, axes, objectives: [[a, b, ...]], winners, marked }; `axes` are what a and b
+   * weigh, `winners` the indices of those that gave the solutions their fitness, `marked` that of one to mark, or null. */
   show(groups) {
-    const coefficients = groups.flatMap(({ objectives }) => objectives.flat());
+    const coefficients = groups.flatMap(({ objectives }) => objectives.flatMap((genes) => genes.slice(0, 2)));
     const top = coefficients.reduce((largest, value) => Math.max(largest, value), 1);
     const low = coefficients.reduce((smallest, value) => Math.min(smallest, value), 0);
     const toX = (a) => LEFT + ((a - low) / (top - low)) * (WIDTH - LEFT - RIGHT);
     const toY = (b) => WIDTH - BOTTOM - ((b - low) / (top - low)) * (WIDTH - BOTTOM - TOP);
-    const dot = ([a, b], r, kind) => makeSvg("circle", { cx: toX(a), cy: toY(b), r, class: kind });
+    const dot = ([a, b = 0], r, kind) => makeSvg("circle", { cx: toX(a), cy: toY(b), r, class: kind });
     const summaries = [], judges = [], winning = [], marks = [];
     for (const { label, kind, objectives, winners, marked } of groups) {
       const wins = new Map();
@@ -78,9 +78,13 @@ export class ObjectiveSquare {
       "aria-label",
       `Objective functions by their coefficients a and b. ${summaries.join("; ")}`,
     );
+    const [across, up] = ["a", "b"].map((letter, i) => {
+      const titles = new Set(groups.map(({ axes }) => axes[i] ?? "nothing"));
+      return `${letter}: ${titles.size > 0 ? [...titles].join(" or ") : ["closeness", "novelty"][i]}`;
+    });
     this.drawing.replaceChildren(
-      ...makeAxes(WIDTH, "a: closeness", [low, top], [low, top]),
-      makeSvg("text", { x: 14, y: 110, "text-anchor": "middle", transform: "rotate(-90 14 110)" }, "b: novelty"),
+      ...makeAxes(WIDTH, across, [low, top], [low, top]),
+      makeSvg("text", { x: 14, y: 110, "text-anchor": "middle", transform: "rotate(-90 14 110)" }, up),
       ...judges,
       ...winning,
       ...marks,

@@ -22,6 +22,11 @@ export function shown(value) {
   return characters.length <= 80 ? text : characters.slice(0, 77).join("") + "...";
 }
 
+/** An array as Python writes a tuple. */
+export function shownTuple(values) {
+  return `(${values.map(shown).join(", ")}${values.length === 1 ? "," : ""})`;
+}
+
 /** A backslash, or a character that does not print, as Python writes it in a text. */
 function escapedCharacter(character) {
   const short = { "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t" }[character];
@@ -53,6 +58,16 @@ export function checkedChoice(name, value, allowed) {
     throw new InputError(`${name} must be one of ${allowed.map(shown).join(", ")}; got ${shown(value)}`);
   }
   return value;
+}
+
+/** `value`, which must be an array of at least one of the strings in `allowed`, each at most once. */
+export function checkedChoices(name, value, allowed) {
+  const isChosen = Array.isArray(value) && value.length > 0 && new Set(value).size === value.length &&
+    value.every((one) => allowed.includes(one));
+  if (isChosen) return value;
+  throw new InputError(
+    `${name} must be some of ${allowed.map(shown).join(", ")}, each at most once; got ${shown(value)}`,
+  );
 }
 
 /** Rows of numbers as one Float64Array, row after row; each row must have `columns` finite numbers in [low, high]. */

@@ -3,7 +3,9 @@
 // These modules have no dependencies and touch no page, so they run in a browser, in its workers and in Node.
 
 export { ALGORITHMS, PARAMETERS } from "./algorithms.js";
-export { evolve, generations } from "./evolution.js";
+export { endpoints } from "./endpoints.js";
+export { evolve } from "./evolution.js";
+export { generations } from "./generations.js";
 export { parseMaze } from "./maze_files.js";
-export { NoveltyArchive } from "./novelty.js";
-export { endpoints, path } from "./robot.js";
+export { NoveltyArchive } from "./novelty_archive.js";
+export { path } from "./robot.js";

@@ -7,13 +7,15 @@ import {
   checkedParameters,
   CHOICES,
   hasChoice,
+  optionsOf,
   PARAMETERS,
   PROBABILITIES,
+  WEIGHABLE,
   withChoices,
 } from "./algorithms.js";
 import { checkedInteger, MOST } from "./checks.js";
 import { labelled, make } from "./dom.js";
-import { makeSwatch, titleOf } from "./labels.js";
+import { makeSwatch, titleOf, wordOf } from "./labels.js";
 import { ADMISSIONS } from "./novelty.js";
 
 const TITLES = {
@@ -27,9 +29,13 @@ const TITLES = {
   admission: "what enters the archive",
   admitted: "how many, in each generation",
   threshold: "the threshold, at first",
+  patience: "generations until it is given up",
   rating: "what objective functions are bred for",
-  scaling: "how closeness and novelty are weighed",
+  scaling: "how components are weighed",
   judging: "who chooses parents",
+  kind: "what objective functions are",
+  pool: "from where parents are taken",
+  components: "what they weigh",
 };
 const OPTIONS = { // by the names that they have in the package
   "lowest replaced": "the most novel (paper)",
@@ -42,11 +48,23 @@ const OPTIONS = { // by the names that they have in the package
   "genotypic novelty": "being different (paper)",
   pearson: "scores that grow near the goal (Pearson)",
   spearman: "ranks that grow near the goal (Spearman)",
+  mutualism: "high scores of the best solution (mutualism)",
+  competition: "low scores of the best solution (competition)",
+  discovery: "new cells on the paths of those they choose",
+  shuffled: "the same, but shuffled among them",
+  patience: "nothing: a goal reached, or given up, is drawn anew",
+  redrawn: "nothing: all are drawn anew each time",
   raw: "as they are (paper)",
   maximum: "as shares of the largest",
   rank: "as ranks from 0 to 1",
   "best score": "the best of all scores (paper)",
   "drawn judge": "one objective function, drawn each time",
+  favourite: "one likewise: it takes the best of all",
+  weights: "weights of components (paper)",
+  goal: "goals: places in the maze to end at",
+  mixed: "half weights, half goals",
+  generation: "the generation (paper)",
+  repertoire: "the latest robot of every cell reached",
 };
 const EVEN_PARAMETERS = ["population", "objectives", "elites"];
 
@@ -84,9 +102,9 @@ export function makeAlgorithmChoice(store) {
   const show = () => {
     const selected = store.state.algorithms;
     // the others are offered with the choices of the selected ones, to be compared with them
-    const { scaling, judging } = selected.find((algorithm) => hasChoice(algorithm, "scaling")) ?? ALGORITHMS.safe;
+    const common = Object.fromEntries(["scaling", "judging"].map((name) => [name, firstWith(store, name)[name]]));
     const named = Object.values(ALGORITHMS).map((base) =>
-      selected.find((algorithm) => baseOf(algorithm) === base) ?? withChoices(base, { scaling, judging })
+      selected.find((algorithm) => baseOf(algorithm) === base) ?? withChoices(base, common)
     );
     const options = new Set([...named, ...selected]);
     const focused = choice.contains(document.activeElement) ? document.activeElement.value : null;
@@ -136,23 +154,37 @@ export function makeRunField(store, problem) {
   return field;
 }
 
-/** Fields of all parameters and choices, folded away. */
+/** The first of the selected algorithms that has a choice; if none has it, the paper's. */
+function firstWith(store, name) {
+  return store.state.algorithms.find((algorithm) => hasChoice(algorithm, name)) ?? ALGORITHMS.safe;
+}
+
+/** Fields of all parameters and choices, folded away. Those that would change nothing are hidden. */
 export function makeParameterFields(store, problem) {
-  const fields = Object.keys(PARAMETERS).map((name) => makeParameterField(store, problem, name));
-  const [admission, admitted, threshold] = fields.splice(-3);
-  follow(store, "parameters", () => {
-    const chosen = store.state.parameters.admission;
-    admitted.hidden = chosen !== "random";
-    threshold.hidden = chosen !== "threshold";
-  });
-  const choices = Object.keys(CHOICES).map((name) => makeChoiceField(store, problem, name));
+  const fields = Object.fromEntries(
+    Object.keys(PARAMETERS).map((name) => [name, makeParameterField(store, problem, name)]),
+  );
+  const { admission, admitted, threshold, patience, ...others } = fields;
+  const show = () => {
+    const { parameters, algorithms } = store.state;
+    admitted.hidden = parameters.admission !== "random";
+    threshold.hidden = parameters.admission !== "threshold";
+    patience.hidden = !algorithms.some(({ rating }) => rating === "patience");
+  };
+  follow(store, "parameters", show);
+  follow(store, "algorithms", show);
+  const [kind, rating, scaling, judging, pool] = ["kind", "rating", "scaling", "judging", "pool"].map((name) =>
+    makeChoiceField(store, problem, name)
+  );
+  const components = makeComponentsField(store, problem);
+  const rules = [admission, admitted, threshold, kind, components, rating, patience, scaling, judging, pool];
   return make(
     "details",
     {},
     make("summary", {}, "Parameters"),
-    make("div", { class: "fields" }, ...fields),
+    make("div", { class: "fields" }, ...Object.values(others)),
     make("p", { class: "note" }, "What if? Choices beyond the paper:"),
-    make("div", { class: "fields wide" }, admission, admitted, threshold, ...choices),
+    make("div", { class: "fields wide" }, ...rules),
   );
 }
 
@@ -174,17 +206,45 @@ function makeParameterField(store, problem, name) {
   return labelled(TITLES[name] ?? name, input);
 }
 
-/** The field of a choice that algorithms have: it sets that of all selected ones, and is disabled if none has it. */
+/** The field of a choice that algorithms have: it sets that of all selected ones, and is hidden if none has it. */
 function makeChoiceField(store, problem, name) {
-  const first = () => store.state.algorithms.find((algorithm) => hasChoice(algorithm, name));
   const select = makeStateSelect(store, problem, CHOICES[name], {
     name: "algorithms",
-    read: () => (first() ?? ALGORITHMS.safe)[name],
-    write: (value) => {
-      const algorithms = store.state.algorithms.map((algorithm) => withChoices(algorithm, { [name]: value }));
-      store.set({ algorithms, generation: 0 });
-    },
+    read: () => firstWith(store, name)[name],
+    write: (value) => setChoice(store, name, value),
   });
-  follow(store, "algorithms", () => (select.disabled = !first()));
-  return labelled(TITLES[name], select);
+  const field = labelled(TITLES[name], select);
+  const show = () => {
+    const having = store.state.algorithms.filter((algorithm) => hasChoice(algorithm, name));
+    const possible = having.flatMap((algorithm) => optionsOf(algorithm, name));
+    for (const option of select.options) option.disabled = !possible.includes(option.value);
+    field.hidden = having.length === 0;
+  };
+  follow(store, "algorithms", show);
+  return field;
+}
+
+/** Boxes for the components that objective functions weigh, those of all selected algorithms that are drawn. */
+function makeComponentsField(store, problem) {
+  const boxes = WEIGHABLE.map((name) => {
+    const onchange = () => problem.attempt(set, show);
+    return make("input", { type: "checkbox", value: name, onchange });
+  });
+  const set = () => {
+    setChoice(store, "components", boxes.filter(({ checked }) => checked).map(({ value }) => value));
+  };
+  const labels = boxes.map((box) => make("label", {}, box, wordOf(box.value)));
+  const field = make("fieldset", {}, make("legend", {}, TITLES.components), ...labels);
+  const show = () => {
+    const { components } = firstWith(store, "components");
+    for (const box of boxes) box.checked = components.includes(box.value);
+    field.hidden = !store.state.algorithms.some((algorithm) => hasChoice(algorithm, "components"));
+  };
+  follow(store, "algorithms", show);
+  return field;
+}
+
+function setChoice(store, name, value) {
+  const algorithms = store.state.algorithms.map((algorithm) => withChoices(algorithm, { [name]: value }));
+  store.set({ algorithms, generation: 0 });
 }

@@ -1,8 +1,8 @@
 // The inspector: one robot of the generation, and how it came by its novelty and fitness.
 
 import { labelled, make, makeButton, makeControls, makeSelect, makeTableHead } from "./dom.js";
-import { titleOf } from "./labels.js";
-import { cellsText, percentage, shortNumber } from "./text.js";
+import { titleOf, wordOf } from "./labels.js";
+import { cellsText, listText, percentage, shortNumber } from "./text.js";
 
 const MOST_SUMMANDS = 30; // of a novelty that are written out
 const STANDING_HEAD = ["Measure", "This robot", "Largest", "Place"];
@@ -44,17 +44,16 @@ export class Inspector {
   }
 
   #describe({ panel, individual, inspection }) {
-    const { ends, objectives } = panel.latest;
+    const { ends } = panel.latest;
     const { endpoint: [row, column], distance, novelty, fitness, controller } = inspection;
     const lines = [`Robot ${individual} ended at row ${row}, column ${column}, ${cellsText(distance)} from the goal.`];
     if (novelty !== null) lines.push(noveltyText(inspection));
-    if (fitness !== null) lines.push(fitnessText(inspection));
-    else lines.push("Nobody judges it: in random search there is nothing to select by.");
-    const share = goalShareOf(inspection);
+    lines.push(fitness !== null ? fitnessText(inspection) : nobodyText(panel.latest));
+    const shares = sharesOf(inspection);
     return [
       ...lines.map((line) => make("p", { class: "explanation" }, line)),
-      ...(share === null ? [] : [makeSharesBar(share)]),
-      ...(fitness === null ? [] : [make("p", {}, judgeText(inspection, ends.length, objectives.length))]),
+      ...(shares.length > 0 ? [makeSharesBar(shares)] : []),
+      ...(fitness !== null ? [make("p", {}, judgeText(inspection, panel))] : []),
       makeStandings(inspection.standings, ends.length),
       makeButton("Drive this robot", () => this.ondrive(controller)),
     ];
@@ -74,40 +73,50 @@ function noveltyText({ novelty, neighbours, k }) {
 }
 
 function fitnessText(inspection) {
-  const { fitness, winner, coefficients: [a, b], fromGoal, fromNovelty } = inspection;
-  const share = goalShareOf(inspection);
-  const [goal, novelty] = share === null ? ["", ""] : [share, 1 - share].map((part) => ` (${percentage(part, 1)} %)`);
-  return (
-    `Fitness ${shortNumber(fitness)}, by objective function ${winner} with a = ${shortNumber(a)} and ` +
-    `b = ${shortNumber(b)}: ${shortNumber(fromGoal)} for being near the goal${goal} and ` +
-    `${shortNumber(fromNovelty)} for novelty${novelty}.`
-  );
+  const { fitness, winner, goal, terms } = inspection;
+  const given = `Fitness ${shortNumber(fitness)}, by objective function ${winner}`;
+  if (goal) return `${given}, a goal: the place (${goal.row}, ${goal.column}), ${cellsText(goal.distance)} away.`;
+  const coefficients = terms.map(({ coefficient }, c) => `${"abcd"[c]} = ${shortNumber(coefficient)}`);
+  const shares = sharesOf(inspection);
+  const parts = terms.map(({ name, value }, c) => {
+    const share = shares.length > 0 ? ` (${percentage(shares[c].share, 1)} %)` : "";
+    return `${shortNumber(value)} for ${wordOf(name)}${share}`;
+  });
+  return `${given} with ${listText(coefficients)}: ${listText(parts)}.`;
+}
+
+/** Why a robot has no fitness. */
+function nobodyText({ reached }) {
+  return "Nobody judges it: " +
+    (reached === null
+      ? "in random search there is nothing to select by."
+      : `parents are drawn from the latest robots of the ${reached} cells reached so far.`);
 }
 
 /** Who decides: how much hangs on the objective function behind the fitness, and who selects parents. */
-function judgeText({ winner, wins, areJudgesDrawn }, robots, judges) {
+function judgeText({ winner, wins }, { algorithm: { judging, kind }, latest: { ends, weights, goals, reached } }) {
+  const robots = ends.length, judges = weights.length + goals.length;
   const given = `Objective function ${winner} gives ${wins === robots ? "all" : `${wins} of the`} ${robots} fitnesses`;
-  return areJudgesDrawn && judges > 1
-    ? `${given}. But parents are not chosen by fitness: each tournament draws its judge from all ${judges} ` +
-      "objective functions."
-    : `${given}, by which tournaments choose parents.`;
+  const isDrawn = judging === "drawn judge";
+  if (judging === "best score" || (isDrawn && judges === 1)) return `${given}, by which tournaments choose parents.`;
+  const how = isDrawn ? "each tournament draws its judge from" : "each is the favourite of one, drawn from";
+  const pool = reached === null ? "" : `${kind === "mixed" ? "; goals choose" : ","} among the latest robots of the ` +
+    `${reached} cells reached so far`;
+  return `${given}. But parents are not chosen by fitness: ${how} all ${judges} objective functions${pool}.`;
 }
 
-/** Which share of a fitness is for being near the goal, the rest being for novelty.
- *
- * null if there are no shares: without a fitness, or with negative coefficients. */
-function goalShareOf({ fitness, fromGoal, fromNovelty }) {
-  return fitness > 0 && Math.min(fromGoal, fromNovelty) >= 0 ? fromGoal / fitness : null;
+/** What shares of a fitness are for what: { title, share }; none if there are no shares, or only one can be. */
+function sharesOf({ fitness, terms }) {
+  if (!(fitness > 0) || terms.length < 2 || terms.some(({ value }) => value < 0)) return [];
+  return terms.map(({ name, value }) => ({ title: wordOf(name), share: value / fitness }));
 }
 
-function makeSharesBar(share) {
-  const rest = 1 - share;
-  const text = `Of its fitness, ${percentage(share, 1)} % is goal and ${percentage(rest, 1)} % novelty`;
+function makeSharesBar(shares) {
+  const text = listText(shares.map(({ title, share }) => `${percentage(share, 1)} % ${title}`));
   return make(
     "div",
-    { class: "shares", role: "img", "aria-label": text },
-    make("span", { class: "goal", style: `flex-grow: ${share}` }, share > 0.1 ? "goal" : ""),
-    make("span", { class: "novelty", style: `flex-grow: ${rest}` }, share < 0.9 ? "novelty" : ""),
+    { class: "shares", role: "img", "aria-label": `Its fitness: ${text}` },
+    ...shares.map(({ title, share }) => make("span", { style: `flex-grow: ${share}` }, share > 0.1 ? title : "")),
   );
 }
 

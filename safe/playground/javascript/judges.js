@@ -1,11 +1,24 @@
-// How objective functions judge solutions, and how they are rated (see safe/judges.py, also for the order in which
-// numbers are added up).
+// How objective functions judge solutions (see safe/judges.py, also for the order in which numbers are added up).
 //
-// `judges` holds objectives, a Float64Array with the coefficients of one objective function after the other, and
-// components, an array of Float64Arrays: what is weighed, of all solutions.
+// There are two kinds: an objective function weighs the components of a solution by its coefficients, or it is a goal,
+// a cell, and its score is minus the distance from there to where the solution's robot ends.
+//
+// `judges` holds objectives, a Float64Array with the genes of one objective function after the other; genes, how many
+// each has; weighers, how many of them weigh, which are the first; components, an array of Float64Arrays: what they
+// weigh, of all solutions; endpoints, the row and column of each solution; height and width of the maze.
 
-export const RATINGS = ["none", "genotypic novelty", "pearson", "spearman"]; // of objective functions
+export const KINDS = ["weights", "goal", "mixed"]; // of objective functions
 export const SCALINGS = ["raw", "maximum", "rank"]; // of components
+
+/** How many of so many objective functions of a kind weigh components. */
+export function weighersOf(kind, judges) {
+  return { weights: judges, goal: 0, mixed: judges / 2 }[kind];
+}
+
+/** How many objective functions there are. */
+export function countOf({ objectives, genes }) {
+  return objectives.length / genes;
+}
 
 /** Scale one component of all solutions, which is never negative, by a scaling other than "raw". */
 export function scale(values, scaling, scaled) {
@@ -20,7 +33,7 @@ export function scale(values, scaling, scaled) {
 }
 
 /** The rank of each value, from 0; equal values share the average. */
-function rank(values, ranks) {
+export function rank(values, ranks) {
   const sorted = values.slice().sort();
   for (let i = 0; i < values.length; i++) {
     ranks[i] = (countBelow(sorted, values[i], false) + countBelow(sorted, values[i], true) - 1) / 2;
@@ -38,62 +51,60 @@ function countBelow(sorted, value, orEqual) {
   return low;
 }
 
-/** The score that the j-th objective function gives the i-th solution, O_j(S_i) (Equation 1). */
-export function scoreOne({ objectives, components }, j, i) {
-  const width = components.length;
+/** The cell that the j-th objective function names, a goal: its row and column. */
+export function placeOf({ objectives, genes, height, width }, j) {
+  return {
+    row: Math.min(Math.floor(objectives[j * genes] * height), height - 1),
+    column: Math.min(Math.floor(objectives[j * genes + 1] * width), width - 1),
+  };
+}
+
+/** The distance from a place to the i-th of some cells. */
+export function distanceTo({ row, column }, cells, i) {
+  return Math.abs(row - cells[2 * i]) + Math.abs(column - cells[2 * i + 1]);
+}
+
+/** The score that the j-th objective function gives the i-th solution, O_j(S_i) (Equation 1, or of a goal). */
+export function scoreOne(judges, j, i) {
+  const { objectives, genes, components } = judges;
+  if (j >= judges.weighers) return -distanceTo(placeOf(judges, j), judges.endpoints, i);
   let score = 0;
-  for (let c = 0; c < width; c++) score += objectives[j * width + c] * components[c][i];
+  for (let c = 0; c < components.length; c++) score += objectives[j * genes + c] * components[c][i];
   return score;
 }
 
 /** The scores that the j-th objective function gives all solutions. */
 export function scoreAll(judges, j, scores) {
-  for (let i = 0; i < scores.length; i++) scores[i] = scoreOne(judges, j, i);
+  if (j < judges.weighers) { for (let i = 0; i < scores.length; i++) scores[i] = scoreOne(judges, j, i); }
+  else {
+    const place = placeOf(judges, j);
+    for (let i = 0; i < scores.length; i++) scores[i] = -distanceTo(place, judges.endpoints, i);
+  }
 }
 
 /** Algorithm 1: the fitness of S_i is max_j O_j(S_i), and the first such O_j is its winner. */
-export function bestScores({ objectives, components }, fitness, winners) {
-  const width = components.length, judges = objectives.length / width;
+export function bestScores(judges, fitness, winners) {
+  const { objectives, genes, components, weighers } = judges;
+  const width = components.length;
   for (let i = 0; i < fitness.length; i++) {
     fitness[i] = -Infinity;
-    for (let j = 0; j < judges; j++) {
+    for (let j = 0, first = 0; j < weighers; j++, first += genes) {
       let score = 0;
-      for (let c = 0; c < width; c++) score += objectives[j * width + c] * components[c][i]; // as scoreOne, but faster
+      for (let c = 0; c < width; c++) score += objectives[first + c] * components[c][i]; // as scoreOne, but faster
       if (score > fitness[i]) {
         fitness[i] = score;
         winners[i] = j;
       }
     }
   }
-}
-
-/** The correlation of each objective function's scores, or of their ranks, with minus the distance to the goal. */
-export function correlations(judges, distances, ofRanks, fitness) {
-  const n = distances.length;
-  const scores = distances.map((distance) => -distance);
-  const apart = new Float64Array(n), nearness = new Float64Array(n); // deviations from the mean
-  const spreadOfNearness = deviationsOf(scores, ofRanks, nearness);
-  for (let j = 0; j < fitness.length; j++) {
+  const scores = new Float64Array(fitness.length);
+  for (let j = weighers; j < countOf(judges); j++) {
     scoreAll(judges, j, scores);
-    const spread = deviationsOf(scores, ofRanks, apart);
-    let product = 0;
-    for (let i = 0; i < n; i++) product += apart[i] * nearness[i];
-    fitness[j] = spread > 0 && spreadOfNearness > 0 ? product / (spread * spreadOfNearness) : 0;
+    for (let i = 0; i < scores.length; i++) {
+      if (scores[i] > fitness[i]) {
+        fitness[i] = scores[i];
+        winners[i] = j;
+      }
+    }
   }
-}
-
-/** The deviations of the values, or of their ranks, from the mean; returns the root of the sum of their squares. */
-function deviationsOf(values, ofRanks, deviations) {
-  const n = values.length;
-  if (ofRanks) rank(values, deviations);
-  else for (let i = 0; i < n; i++) deviations[i] = values[i] - values[0]; // exactly 0 if all are equal
-  let total = 0;
-  for (let i = 0; i < n; i++) total += deviations[i];
-  const mean = total / n;
-  let squares = 0;
-  for (let i = 0; i < n; i++) {
-    deviations[i] -= mean;
-    squares += deviations[i] * deviations[i];
-  }
-  return Math.sqrt(squares);
 }

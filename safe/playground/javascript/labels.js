@@ -1,6 +1,6 @@
 // What algorithms are called, and how they look.
 
-import { baseOf, CHOICES } from "./algorithms.js";
+import { baseOf, PAPERS } from "./algorithms.js";
 import { makeSvg } from "./dom.js";
 
 const LABELS = {
@@ -11,23 +11,53 @@ const LABELS = {
   random: { title: "Random search", summary: "rewards nothing: new robots, drawn by chance" },
 };
 
-/** The title of an algorithm: that of one of ALGORITHMS, with the choices that depart from it. */
+const WORDS = { // for choices and components, if not their own
+  none: "unevolved",
+  goal: "goals",
+  mixed: "weights and goals",
+  "1 / distance": "closeness",
+  "1 / way": "closeness on the way",
+};
+const ORDER = ["kind", "components", "rating", "scaling", "judging", "pool"]; // of choices in a title
+const SUMMARIES = { // by rating
+  mutualism: "evolves what to reward, for high scores of the best",
+  competition: "evolves what to reward, for low scores of the best",
+  discovery: "evolves what to reward, for new cells on paths",
+  shuffled: "evolves what to reward, by ratings that are shuffled",
+  patience: "rewards coming near to goals, which are given up in time",
+  redrawn: "rewards something else each time, drawn by chance",
+};
+const LOOKS = ["mutualism", "competition", "discovery"]; // ratings that are shown in a colour of their own
+
+/** What a choice or a component is called in a sentence. */
+export function wordOf(choice) {
+  return WORDS[choice] ?? choice;
+}
+
+/** The title of an algorithm: that of one of ALGORITHMS, or its name, with the choices that depart. */
 export function titleOf(algorithm) {
-  const base = baseOf(algorithm);
-  if (!base) return algorithm.name;
-  const departing = Object.keys(CHOICES).filter((choice) => algorithm[choice] !== base[choice]);
-  const texts = departing.map((choice) => (algorithm[choice] === "none" ? "unevolved" : algorithm[choice]));
-  return LABELS[base.name].title + (texts.length > 0 ? ` (${texts.join(", ")})` : "");
+  const base = baseOf(algorithm) ?? { ...PAPERS, rating: algorithm.rating };
+  const departing = ORDER.filter((choice) => `${algorithm[choice]}` !== `${base[choice]}`);
+  if (algorithm.objectives?.length === 0 && base.name && departing.join() === "pool") return "MAP-Elites";
+  const texts = departing.map((choice) => [algorithm[choice]].flat().map(wordOf).join(" + "));
+  return (LABELS[base.name]?.title ?? algorithm.name) + (texts.length > 0 ? ` (${texts.join(", ")})` : "");
 }
 
 /** What an algorithm rewards, in a few words. */
 export function summaryOf(algorithm) {
-  const base = baseOf(algorithm), isOther = !base || (base.rating !== "none" && algorithm.rating === "none");
-  return isOther ? "judged by other objective functions" : LABELS[base.name].summary;
+  const { kind, rating, objectives, pool } = algorithm, base = baseOf(algorithm);
+  if (objectives?.length === 0 && pool === "repertoire") {
+    return "rewards nothing, but keeps a robot for each cell reached";
+  }
+  const isOther = !base || (base.rating !== "none" && rating === "none");
+  const text = SUMMARIES[rating] ?? (isOther ? "judged by other objective functions" : LABELS[base.name].summary);
+  if (kind === "weights") return text;
+  return `${text}; ${kind === "goal" ? "its" : "half of its"} objective functions are places to end at`;
 }
 
 /** The class in playground.css that gives an algorithm's dots and lines their looks. */
 export function kindOf(algorithm) {
+  if (LOOKS.includes(algorithm.rating)) return algorithm.rating;
   return baseOf(algorithm) ? algorithm.name : "other";
 }
 

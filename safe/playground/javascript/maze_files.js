@@ -4,8 +4,8 @@ import { InputError, shown } from "./checks.js";
 import { LONGEST_SIDE, makeMaze } from "./maze.js";
 
 const BOX_LINES = Array.from({ length: 0x80 }, (_, i) => String.fromCharCode(0x2500 + i));
-const KINDS = [[..." .0"], [..."#1Xx+-|█▓■", ...BOX_LINES], [..."S2s"], [..."G3gEe"]]; // open, wall, start, goal
-const SYMBOLS = new Map(KINDS.flatMap((symbols, kind) => symbols.map((symbol) => [symbol, kind])));
+const CELL_SYMBOLS = [[..." .0"], [..."#1Xx+-|█▓■", ...BOX_LINES], [..."S2s"], [..."G3gEe"]]; // open, wall, start, goal
+const SYMBOLS = new Map(CELL_SYMBOLS.flatMap((symbols, kind) => symbols.map((symbol) => [symbol, kind])));
 const FOLLOWS = {
   size: "height,width",
   start: "row,column",

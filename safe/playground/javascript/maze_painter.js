@@ -22,15 +22,29 @@ export class MazePainter {
     this.context.imageSmoothingEnabled = false;
   }
 
-  /** scene: { maze, archive, ends, colour of the ends, trail, paths: [{ cells, colour }], robot, rays, links, marked,
-   * cursor }, all optional but the maze. Cells are [row, column]; rays and links are pairs of cells. */
-  paint(
-    { maze, archive = [], ends = [], colour, trail = [], paths = [], robot, rays = [], links = [], marked, cursor },
-  ) {
+  /** scene: { maze, archive, ends, colour of the ends, places, trail, paths: [{ cells, colour }], robot, rays, links,
+   * favourites, marked, cursor }, all optional but the maze. Cells are [row, column]; rays, links and favourites are
+   * pairs of cells. */
+  paint({
+    maze,
+    archive = [],
+    ends = [],
+    colour,
+    places = [],
+    trail = [],
+    paths = [],
+    robot,
+    rays = [],
+    links = [],
+    favourites = [],
+    marked,
+    cursor,
+  }) {
     this.#paintCells(maze);
     this.#paintArchive(archive);
     this.#paintLines(trail, paths);
     this.#paintEnds(ends, colour);
+    this.#paintPlaces(places, favourites);
     this.context.strokeStyle = this.#colourOf("mark");
     for (const pair of [...links, ...rays]) this.#line(pair, this.dot / 2);
     this.#paintStartAndGoal(maze);
@@ -66,6 +80,14 @@ export class MazePainter {
     this.context.globalAlpha = 0.75;
     for (const [cell, count] of counted(ends)) this.#disc(cell, this.dot * Math.min(1 + 0.3 * Math.sqrt(count), 3.5));
     this.context.globalAlpha = 1;
+  }
+
+  #paintPlaces(places, favourites) {
+    this.context.strokeStyle = this.#colourOf("place");
+    this.context.globalAlpha = 0.6;
+    for (const pair of favourites) this.#line(pair, this.dot / 2);
+    this.context.globalAlpha = 1;
+    for (const [cell] of counted(places)) this.#cross(cell, 1.3 * this.dot);
   }
 
   #paintStartAndGoal({ start, goal }) {
@@ -119,6 +141,17 @@ export class MazePainter {
     for (const cell of cells) this.context.lineTo(...this.#centre(cell));
     this.context.stroke();
     this.context.setLineDash([]);
+  }
+
+  #cross(cell, reach) {
+    const [x, y] = this.#centre(cell);
+    this.context.lineWidth = 0.6 * this.dot;
+    this.context.beginPath();
+    for (const side of [-reach, reach]) {
+      this.context.moveTo(x - side, y - reach);
+      this.context.lineTo(x + side, y + reach);
+    }
+    this.context.stroke();
   }
 
   #star(cell) {

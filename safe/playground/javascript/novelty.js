@@ -5,7 +5,6 @@
 // each is offered to the archive right after its score is known. By the other rules of admission, to the archive of end
 // points, points enter only after all are scored: "random" and "threshold" replace the oldest, the others the lowest.
 
-import { checkedChoice, checkedInteger, checkedRows, MOST } from "./checks.js";
 import { nearestDistances } from "./neighbours.js";
 import { rowOf } from "./rows.js";
 
@@ -16,41 +15,6 @@ const MOST_ENTRIES = 4; // in a generation: if more enter, the threshold rises
 const RISE = 1.2;
 const MOST_IDLE = 2500; // evaluations without an entry: after them, the threshold falls
 const FALL = 0.95;
-
-/** An archive of points, and the novelty of new ones: as safe.NoveltyArchive. */
-export class NoveltyArchive {
-  constructor(capacity = ARCHIVE_CAPACITY, k = K, metric = "taxicab") {
-    this.capacity = checkedInteger("capacity", capacity, 0, MOST);
-    this.k = checkedInteger("k", k, 1, MOST);
-    this.metric = checkedChoice("metric", metric, ["taxicab", "euclidean"]);
-    this.archive = null; // made with the first points, which give the dimensions
-  }
-
-  /** The novelty of one generation of points, in order; what the archive admits of it stays there. */
-  score(points) {
-    const dimensions = this.archive?.dimensions ?? points?.[0]?.length ?? 0;
-    const flat = checkedRows("points", points, dimensions);
-    checkedInteger("the columns of points", dimensions, 1, 1000);
-    this.archive ??= new Archive(this.capacity, dimensions);
-    const scores = new Float64Array(points.length);
-    scorePoints(flat, this.archive, this.k, this.metric === "taxicab", scores);
-    return [...scores];
-  }
-
-  get length() {
-    return this.archive?.size ?? 0;
-  }
-
-  /** The points in the archive, the oldest first. */
-  get points() {
-    return this.archive?.listed().points ?? [];
-  }
-
-  /** The scores that they entered with. */
-  get scores() {
-    return this.archive?.listed().scores ?? [];
-  }
-}
 
 /** Points with their scores, in a fixed number of places. */
 export class Archive {
@@ -122,15 +86,6 @@ export class Archive {
     this.size = other.size;
     this.entered = other.entered;
     this.lowest = other.lowest;
-  }
-
-  /** Points and scores, the oldest first, as plain arrays. */
-  listed() {
-    const places = Array.from({ length: this.size }, (_, place) => place).sort((a, b) => this.entry[a] - this.entry[b]);
-    return {
-      points: places.map((place) => rowOf(this.points, place, this.dimensions)),
-      scores: places.map((place) => this.scores[place]),
-    };
   }
 }
 

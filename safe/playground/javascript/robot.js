@@ -3,7 +3,7 @@
 // Where it goes next depends only on where it stands, so a path that comes back to a cell repeats from there for ever,
 // and its end follows without walking on.
 
-import { checkedInteger, checkedRow, checkedRows, MOST } from "./checks.js";
+import { checkedInteger, checkedRow, MOST } from "./checks.js";
 
 export const WEIGHTS = 16; // p1..p16
 export const STEPS = 300;
@@ -13,16 +13,6 @@ export function path(maze, controller, steps = STEPS) {
   const walker = new Walker(maze, checkedInteger("steps", steps, 0, MOST));
   walker.walk(checkedRow("controller", controller, WEIGHTS, -1, 1), 0);
   return Array.from({ length: steps + 1 }, (_, step) => walker.position(step));
-}
-
-/** Where each of n robots ends, [row, column] each. */
-export function endpoints(maze, controllers, steps = STEPS) {
-  const walker = new Walker(maze, checkedInteger("steps", steps, 0, MOST));
-  const genomes = checkedRows("controllers", controllers, WEIGHTS, -1, 1);
-  return controllers.map((_, i) => {
-    walker.walk(genomes, WEIGHTS * i);
-    return walker.position(steps);
-  });
 }
 
 /** Walks in one maze, all of the same number of steps. */

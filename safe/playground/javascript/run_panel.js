@@ -1,7 +1,7 @@
 // One run on the watch: the maze with its generation, and how far it has come.
 
 import { make, makeButton } from "./dom.js";
-import { kindOf, makeSwatch, summaryOf, titleOf } from "./labels.js";
+import { kindOf, makeSwatch, summaryOf, titleOf, wordOf } from "./labels.js";
 import { distanceBetween } from "./maze.js";
 import { MazeView } from "./maze_view.js";
 import { cellsText, shortNumber } from "./text.js";
@@ -77,18 +77,22 @@ export class RunPanel {
     return distances.indexOf(distances.reduce((least, distance) => Math.min(least, distance)));
   }
 
-  /** Show the last generation, and in it the solution of an inspection, or none if that is null. */
-  show(inspection) {
-    const { latest, status } = this;
-    status.textContent = statusText(latest);
+  /** Show the last generation, and in it the solution of an inspection, or none if that is null.
+   *
+   * isLinking: are all goals linked to their favourites, or only those of which the solution is it? */
+  show(inspection, isLinking) {
+    const { latest, status, algorithm } = this;
+    status.textContent = statusText(latest, algorithm);
     this.element.classList.toggle("success", latest.result.success);
     this.view.canvas.setAttribute(
       "aria-label",
       `${titleOf(this.algorithm)}: the maze with where the ${latest.ends.length} robots of generation ` +
-        `${latest.result.generation} ended, ${latest.archive.length} points of the archive, and the best path. ` +
+        `${latest.result.generation} ended, ${latest.archive.length} points of the archive, ` +
+        `${latest.goals.length > 0 ? `the places of ${latest.goals.length} goals, ` : ""}and the best path. ` +
         status.textContent,
     );
     const { route, endpoint, neighbours } = inspection ?? { neighbours: [] };
+    const linked = latest.goals.filter(({ favourite }) => isLinking || `${favourite}` === `${endpoint}`);
     this.view.show({
       maze: this.maze,
       archive: latest.archive,
@@ -97,6 +101,8 @@ export class RunPanel {
       trail: this.trail,
       paths: [{ cells: latest.route }, ...(inspection ? [{ cells: route, colour: "mark" }] : [])],
       robot: latest.end,
+      places: latest.goals.map(({ place }) => place),
+      favourites: linked.map(({ place, favourite }) => [place, favourite]),
       links: neighbours.slice(0, MOST_LINKS).map(({ point }) => [endpoint, point]),
       marked: endpoint,
     });
@@ -104,14 +110,16 @@ export class RunPanel {
 }
 
 /** How far a run has come, in words. */
-function statusText({ result, isOver }) {
-  const { success, generation, distance, evaluations, coefficients: [a, b] } = result;
+function statusText({ result, isOver, goal }, { components, objectives, pool }) {
+  const { success, generation, distance, evaluations, coefficients } = result;
   const best = `best ${cellsText(distance)} from the goal`;
   if (!isOver) return `Generation ${generation}: ${best}.`;
-  const outcome = success ? "Success" : "No success";
-  // in random search nobody judges, and generations mean nothing
-  if (a === undefined) return `${outcome}: ${best}, after ${evaluations} robots.`;
+  const outcome = success ? "Success" : "No success", robots = `after ${evaluations} robots.`;
+  const isJudged = objectives?.length !== 0;
+  // in random search generations mean nothing
+  if (!isJudged && pool === "generation") return `${outcome}: ${best}, ${robots}`;
   const time = success ? `in generation ${generation}` : `in ${generation + 1} generations`;
-  const judge = `Its fitness: ${shortNumber(a)} · closeness + ${shortNumber(b)} · novelty.`;
-  return `${outcome} ${time}: ${best}, after ${evaluations} robots. ${judge}`;
+  const weighed = components.map((name, c) => `${shortNumber(coefficients[c] ?? 0)} · ${wordOf(name)}`).join(" + ");
+  const judge = goal ? `how near it came to the place (${goal.row}, ${goal.column})` : weighed;
+  return `${outcome} ${time}: ${best}, ${robots}${isJudged ? ` Its fitness: ${judge}.` : ""}`;
 }

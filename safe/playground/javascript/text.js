@@ -14,3 +14,8 @@ export function percentage(share, decimals = share > 0 && share < 0.1 ? 1 : 0) {
 export function cellsText(count) {
   return `${count} cell${count === 1 ? "" : "s"}`;
 }
+
+/** Texts in one, as a list in a sentence. */
+export function listText(texts) {
+  return [texts.slice(0, -1).join(", "), texts.at(-1)].filter((text) => text).join(" and ");
+}

@@ -2,7 +2,7 @@
 
 import { LineChart, ObjectiveSquare } from "./chart.js";
 import { make } from "./dom.js";
-import { kindOf, titleOf } from "./labels.js";
+import { kindOf, titleOf, wordOf } from "./labels.js";
 
 export class WatchCharts {
   constructor() {
@@ -22,12 +22,19 @@ export class WatchCharts {
     for (const [key, chart] of Object.entries(this.lines)) {
       chart.show(panels.map((panel) => seriesOf(panel, key)).filter(({ points }) => points.length > 0));
     }
-    this.square.show(panels.map((panel) => ({
-      ...looksOf(panel),
-      objectives: panel.latest.objectives,
-      winners: panel.latest.winners,
-      marked: panel === selection?.panel ? selection.inspection.winner : null,
-    })));
+    const weighing = panels.filter(({ latest }) => latest.weights.length > 0); // goals are on the maze
+    this.square.element.hidden = weighing.length === 0 && panels.some(({ latest }) => latest.goals.length > 0);
+    this.square.show(weighing.map((panel) => {
+      const { weights, winners } = panel.latest, isWeight = (j) => j < weights.length;
+      const winner = panel === selection?.panel ? selection.inspection.winner : null;
+      return {
+        ...looksOf(panel),
+        axes: panel.algorithm.components.slice(0, 2).map(wordOf),
+        objectives: weights,
+        winners: winners.filter(isWeight),
+        marked: winner !== null && isWeight(winner) ? winner : null,
+      };
+    }));
   }
 }
 

@@ -41,6 +41,12 @@ export class WatchView {
     this.origin = make("p", { class: "note" });
     this.row = make("div", { class: "panels" });
     this.charts = new WatchCharts();
+    this.linking = make("input", { type: "checkbox", onchange: () => this.#draw() });
+    this.goalsKey = makeBlock( // shown only with goals
+      makeLegend([["cross", "places that goals name"]]),
+      make("label", { class: "choice" }, this.linking, "link places to their favourites, the robots nearest to them"),
+    );
+    this.goalsKey.hidden = true;
     this.inspector = new Inspector({
       onselect: (i, individual) => this.#select(i, () => individual),
       ondrive: this.ondrive,
@@ -54,7 +60,7 @@ export class WatchView {
       make(
         "div",
         { class: "stage" },
-        makeBlock(this.row, makeLegend(WATCH_LEGEND)),
+        makeBlock(this.row, makeLegend(WATCH_LEGEND), this.goalsKey),
         makeBlock(this.inspector.element, this.charts.element),
       ),
     );
@@ -193,7 +199,10 @@ export class WatchView {
 
   #draw() {
     const { selection, group: { panels, generation } } = this;
-    for (const panel of panels) panel.show(panel === selection?.panel ? selection.inspection : null);
+    for (const panel of panels) {
+      panel.show(panel === selection?.panel ? selection.inspection : null, this.linking.checked);
+    }
+    this.goalsKey.hidden = !panels.some(({ latest }) => latest.goals.length > 0);
     this.transport.showGeneration(generation);
     this.charts.show(panels, selection);
     this.inspector.show(panels, selection);

@@ -1,9 +1,11 @@
 // What runs in a web worker: evolution, at the request of a page.
 
-import { COMPONENTS, GOAL, NOVELTY } from "./algorithms.js";
 import { Evolution, evolve } from "./evolution.js";
+import { countOf, distanceTo, placeOf } from "./judges.js";
+import { wordOf } from "./labels.js";
 import { WEIGHTS } from "./robot.js";
 import { rowOf, rowsOf } from "./rows.js";
+import { favouriteOf } from "./selection.js";
 
 /** Answer the messages { id, task, ...arguments } of a page by { id, answer } or { id, error }. */
 export function serve(scope) {
@@ -52,18 +54,32 @@ function advance(evolution, generations, milliseconds = Infinity) {
     end: evolution.best.endpoint,
     ends: rowsOf(evolution.endpoints, 2),
     archive: rowsOf(evolution.archive.points.subarray(0, 2 * evolution.archive.size), 2),
-    objectives: rowsOf(evolution.objectives, COMPONENTS.length),
-    winners: evolution.isRandomSearch ? [] : [...evolution.winners],
+    goal: evolution.best.goal,
+    weights: rowsOf(evolution.objectives.subarray(0, evolution.weighers * evolution.genes), evolution.genes),
+    goals: goalsOf(evolution),
+    winners: evolution.isJudged ? [...evolution.winners] : [],
+    reached: evolution.repertoire?.size ?? null,
   };
+}
+
+/** The cells that goals name, each with the cell where its favourite ended: [row, column]. */
+function goalsOf({ judges, repertoire, distances }) {
+  const goals = [];
+  for (let j = judges.weighers; j < countOf(judges); j++) {
+    const { row, column } = placeOf(judges, j);
+    const slot = favouriteOf(judges, j, repertoire, distances.length);
+    goals.push({ place: [row, column], favourite: rowOf(repertoire?.cells ?? judges.endpoints, slot, 2) });
+  }
+  return goals;
 }
 
 /** What charts show of a generation. */
 function lineOf(evolution) {
-  const novelty = evolution.components[NOVELTY];
+  const novelty = evolution.components[evolution.novelty];
   return {
     generation: evolution.number,
     distance: evolution.best.distance,
-    novelty: evolution.weighed[NOVELTY] ? novelty.reduce((sum, value) => sum + value) / novelty.length : null,
+    novelty: evolution.isNoveltyWeighed ? novelty.reduce((sum, value) => sum + value) / novelty.length : null,
     archive: evolution.archive.size,
     endpoint: evolution.best.endpoint,
   };
@@ -72,39 +88,38 @@ function lineOf(evolution) {
 /** How the i-th solution of the generation came by its novelty and fitness; null for what it does not have. */
 function inspect(evolution, i) {
   const controller = rowOf(evolution.genomes, i, WEIGHTS);
-  const isJudged = !evolution.isRandomSearch;
-  const winner = isJudged ? evolution.winners[i] : null;
-  const coefficients = isJudged ? rowOf(evolution.objectives, winner, COMPONENTS.length) : [];
-  const parts = coefficients.map((coefficient, c) => coefficient * evolution.scaled[c][i]);
+  const { isJudged, isNoveltyWeighed, algorithm } = evolution;
+  const winner = isJudged ? evolution.winners[i] : null, place = evolution.goalOf(i);
   return {
     controller,
     endpoint: rowOf(evolution.endpoints, i, 2),
     route: evolution.route(controller),
     distance: evolution.distances[i],
-    novelty: evolution.weighed[NOVELTY] ? evolution.components[NOVELTY][i] : null,
-    neighbours: evolution.weighed[NOVELTY] ? evolution.neighbours(i) : [],
+    novelty: isNoveltyWeighed ? evolution.components[evolution.novelty][i] : null,
+    neighbours: isNoveltyWeighed ? evolution.neighbours(i) : [],
     k: evolution.parameters.k,
     fitness: isJudged ? evolution.fitness[i] : null,
     winner,
-    coefficients,
-    fromGoal: isJudged ? parts[GOAL] : null,
-    fromNovelty: isJudged ? parts[NOVELTY] : null,
+    // of a goal: the cell, and how far it is away
+    goal: place && { ...place, distance: distanceTo(place, evolution.endpoints, i) },
+    // of weights: each component with its coefficient and what that makes of the fitness
+    terms: !isJudged || place ? [] : algorithm.components.map((name, c) => {
+      const coefficient = evolution.objectives[winner * evolution.genes + c];
+      return { name, coefficient, value: coefficient * evolution.scaled[c][i] };
+    }),
     wins: evolution.winners.filter((other) => other === winner).length,
-    areJudgesDrawn: evolution.breeding.judging === "drawn judge",
     standings: standingsOf(evolution, i),
   };
 }
 
 /** The i-th solution beside the others of the generation, by each measure that it has; equal ones share a place. */
-function standingsOf({ components, scaled, weighed, fitness, isRandomSearch }, i) {
+function standingsOf({ algorithm, components, scaled, weighed, fitness, isJudged }, i) {
   const isScaled = scaled !== components;
-  const measures = [
-    ["closeness (1 / distance)", components[GOAL], true],
-    ["closeness as weighed", scaled[GOAL], isScaled && weighed[GOAL]],
-    ["novelty", components[NOVELTY], weighed[NOVELTY]],
-    ["novelty as weighed", scaled[NOVELTY], isScaled && weighed[NOVELTY]],
-    ["fitness", fitness, !isRandomSearch],
-  ];
+  const measures = algorithm.components.flatMap((name, c) => [
+    [wordOf(name) + (name.startsWith("1") ? ` (${name})` : ""), components[c], weighed[c] || name === "1 / distance"],
+    [`${wordOf(name)} as weighed`, scaled[c], isScaled && weighed[c]],
+  ]);
+  measures.push(["fitness", fitness, isJudged]);
   return measures.filter(([, , isThere]) => isThere).map(([measure, values]) => ({
     measure,
     value: values[i],

@@ -14,6 +14,7 @@ import { Evolution } from "../../../safe/playground/javascript/evolution.js";
 import { drawingOf, waysToGoal } from "../../../safe/playground/javascript/maze.js";
 import { listOf, textOf } from "../../../safe/playground/javascript/maze_files.js";
 import { admitAbove, Archive, Occupancy } from "../../../safe/playground/javascript/novelty.js";
+import { listed } from "../../../safe/playground/javascript/novelty_archive.js";
 
 const FUNCTIONS = {
   host: () => {
@@ -42,7 +43,7 @@ const FUNCTIONS = {
     const archive = new Archive(5, 2), occupancy = new Occupancy(1, 1), kept = { value: threshold, idle: 0 };
     return scores.map((generation) => {
       admitAbove(new Float64Array(2 * generation.length), archive, occupancy, kept, generation);
-      return { ...kept, entered: archive.listed().scores };
+      return { ...kept, entered: listed(archive).scores };
     });
   },
   evolve: ({ maze, algorithm, seed, parameters }) => evolve(parseMaze(maze), algorithm, seedOf(seed), parameters),
