@@ -11,7 +11,6 @@ from urllib.parse import urljoin
 import pytest
 
 from safe.companion import evidence, held_out
-from safe.companion.designs import everything
 from safe.companion.questions import all_questions
 from safe.playground.address import drive_address
 from tests.helpers.addresses import run_at, values_of
@@ -37,8 +36,8 @@ ABOUT_RUNS = {
     "tab-unevolved",
     "tab-unevolved-coefficients",
 }
-ABOUT_RECORDED_RUNS = {"tab-archives", "tab-mutualism", "tab-selects", "tab-settings"}
-ABOUT_SCENES = {"tab-archives-watch", "tab-mutualism-watch", "tab-selects-watch"}
+ABOUT_RECORDED_RUNS = {"tab-archives", "tab-kinds", "tab-mutualism", "tab-selects", "tab-settings"}
+ABOUT_SCENES = {"tab-archives-watch", "tab-kinds-watch", "tab-mutualism-watch", "tab-selects-watch"}
 ABOUT_ROBOTS = {"tab-known", "tab-mazes", "tab-mean-controller"}
 ABOUT_UNSEEN = {"tab-unseen-open"}
 ABOUT_NEITHER = {
@@ -58,6 +57,9 @@ ABOUT_NEITHER = {
     "tab-effects-answers",
     "tab-elites",
     "tab-first-use",
+    "tab-kinds-engagement",
+    "tab-kinds-fields",
+    "tab-kinds-pairs",
     "tab-ledger-untestable",
     "tab-machine",
     "tab-missed",
@@ -176,7 +178,8 @@ def test_a_link_leads_to_the_run_in_the_results(checkout, linked):
 
 @pytest.mark.parametrize("name", sorted(ABOUT_RECORDED_RUNS))
 def test_a_row_about_recorded_runs_leads_to_them(checkout, linked, name):
-    experiments = {recorded.experiment.digest: recorded.experiment for recorded in everything()}
+    designed = [recorded.experiment for collection in evidence.COLLECTIONS for recorded in collection.designed()]
+    experiments = {experiment.digest: experiment for experiment in designed}
     addresses = [addresses_of(links) for _, links in linked[name]]
     assert all(addresses)
     for address in [addresses[0][0], addresses[len(addresses) // 2][0], addresses[-1][-1]]:
