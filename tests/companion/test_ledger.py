@@ -3,8 +3,9 @@ import pandas as pd
 import pytest
 
 import safe
+from safe.algorithms import COEFFICIENTS
 from safe.companion import claims, ledger, paper, verdicts
-from safe.experiments.experiment import COEFFICIENTS, WEIGHT_COLUMNS
+from safe.experiments.experiment import WEIGHT_COLUMNS
 from tests.helpers import record
 
 

@@ -13,8 +13,9 @@ import numpy as np
 import pandas as pd
 
 import safe
+from safe.algorithms import COEFFICIENTS
 from safe.companion import designs, findings, ledger, paper
-from safe.experiments.experiment import COEFFICIENTS, WEIGHT_COLUMNS
+from safe.experiments.experiment import WEIGHT_COLUMNS
 from safe.maze_files import load_mazes
 
 FILE = Path(__file__).parents[1] / "data" / "runs.npz"
