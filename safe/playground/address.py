@@ -55,7 +55,8 @@ def run_address(experiment: Experiment, run: int) -> str:
     'view=watch&maze=maze1&algorithm=safe&seed=0xc59dd4'
     >>> run_address(Experiment(Algorithm("mine", rating="pearson", judging="drawn judge"), "maze1"), 7)[22:65]
     'algorithm=mine:pearson:drawn:raw:drawn&seed'
-    >>> run_address(Experiment(Algorithm("mine", judging="favourite", kind="goal"), "maze1"), 7)[22:87]
+    >>> goals = Experiment(Algorithm("mine", judging="favourite", kind="goal"), "maze1")
+    >>> run_address(goals, 7)[22:99]
     'algorithm=mine:none:drawn:raw:favourite:goal:generation:distance,novelty&seed'
     >>> from safe import Parameters
     >>> run_address(Experiment("safe", "maze1", parameters=Parameters(population=50, mutation=0.1)), 7)[-29:]

@@ -39,7 +39,7 @@ def mixed_model(successes: ArrayLike, runs: ArrayLike, other_successes: ArrayLik
     """Two algorithms on the same mazes, by a logistic model with random intercepts and effects of mazes.
 
     If an algorithm never or always succeeds, on all mazes, no finite effect is the likeliest, and all fields are not a
-    number.
+    number. With few runs on each maze the spreads may be impossible to tell from them; then the error, z and p are none.
 
     Parameters
     ----------
@@ -68,7 +68,8 @@ def mixed_model(successes: ArrayLike, runs: ArrayLike, other_successes: ArrayLik
 
     found = optimize.minimize(loss, start, jac=True, method="BFGS", options={"gtol": 1e-6}).x
     curvature = len(pairs) * optimize.approx_fprime(found, lambda parameters: loss(parameters)[1], 1e-5)
-    error = math.sqrt(np.linalg.inv((curvature + curvature.T) / 2)[1, 1])
+    variance = np.linalg.pinv((curvature + curvature.T) / 2)[1, 1]
+    error = math.sqrt(variance) if variance > 0 else math.nan  # with one run on each maze, spreads cannot be told
     effect, spread = float(found[1]), math.hypot(found[3], found[4])
     z = effect / error
     return MixedModel(effect, error, z, float(2 * stats.norm.sf(abs(z))), abs(float(found[2])), spread)

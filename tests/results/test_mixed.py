@@ -82,3 +82,13 @@ def test_a_known_effect_is_found_without_bias_and_covered_by_its_intervals():
     assert 0.87 <= (np.abs(estimates - 0.8) < 1.96 * errors).mean() < 1
     assert np.mean([one.sd_mazes for one in found]) == pytest.approx(2, rel=0.1)
     assert np.mean([one.sd_effect for one in found]) == pytest.approx(1, rel=0.15)
+
+
+def test_with_one_run_on_each_maze_there_may_be_no_error():
+    """Regression: the curvature was not positive, and its root was a domain error."""
+    rng = np.random.default_rng(5)
+    for _ in range(20):
+        one, other = rng.integers(0, 2, (2, 60))
+        found = mixed_model(one, 1, other, 1)
+        assert np.isnan(found.error) or found.error > 0
+        assert np.isnan(found.error) == np.isnan(found.p_value)
