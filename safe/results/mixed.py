@@ -39,7 +39,7 @@ def mixed_model(successes: ArrayLike, runs: ArrayLike, other_successes: ArrayLik
     """Two algorithms on the same mazes, by a logistic model with random intercepts and effects of mazes.
 
     If an algorithm never or always succeeds, on all mazes, no finite effect is the likeliest, and all fields are not a
-    number. With few runs on each maze the spreads may be impossible to tell from them; then the error, z and p are none.
+    number. With few runs on each maze the spreads cannot always be told; then error, z and p are not numbers.
 
     Parameters
     ----------

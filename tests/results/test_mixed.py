@@ -89,6 +89,6 @@ def test_with_one_run_on_each_maze_there_may_be_no_error():
     rng = np.random.default_rng(5)
     for _ in range(20):
         one, other = rng.integers(0, 2, (2, 60))
-        found = mixed_model(one, 1, other, 1)
+        found = mixed.mixed_model(one, 1, other, 1)
         assert np.isnan(found.error) or found.error > 0
         assert np.isnan(found.error) == np.isnan(found.p_value)
