@@ -13,7 +13,7 @@ rules only offspring enter. All draws come from one generator, as in `safe.evolu
 then, generation by generation, the draws of admission and those of breeding.
 
 Many robots end in the same cell, and equally good solutions do not dominate each other. So copies of the closest
-solution are all in the first front, and can fill the population. The choice `copies` says what becomes of them:
+solution are all in the first front, and can fill the population. The choice `copies` says what becomes of them::
 
     equal           they count like all others, as published
     latest first    fronts are formed of the latest solution of each cell; the second latest of each cell follow after
