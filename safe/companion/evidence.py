@@ -156,7 +156,7 @@ def traces(
     experiments: Sequence[Experiment],
     traced: int,
     resources: dict[str, object] | None = None,
-    observer: ModuleType = mechanism,
+    observer: ModuleType | None = None,
 ) -> dict[Experiment, pd.DataFrame]:
     """What happened inside the first runs of experiments.
 
@@ -171,7 +171,7 @@ def traces(
     resources : dict, optional
         As in `runs`, for what is observed now. Without them nothing is.
     observer : module
-        Of a collection, for what is observed now.
+        Of a collection, for what is observed now; by default `safe.results.mechanism`.
 
     Returns
     -------
@@ -196,7 +196,7 @@ def traces(
             if number in tables:
                 found[experiment] = tables[number][tables[number].run < min(traced, experiment.runs)]
     if resources is not None:
-        found |= _observed(unknown, traced, observer, **resources)
+        found |= _observed(unknown, traced, observer or mechanism, **resources)
     return {e: found[e].drop(columns="experiment").reset_index(drop=True) for e in experiments if len(found.get(e, ()))}
 
 

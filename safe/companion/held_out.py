@@ -225,7 +225,7 @@ def make(
     contestants: Contestants = CONTESTANTS,
     store: str | os.PathLike | None = None,
     cores: int | None = None,
-    folder: Path = FOLDER,
+    folder: Path | None = None,
 ) -> Path:
     """Examine candidates until the set is complete, and record them; finished runs in the store are not made again.
 
@@ -237,8 +237,8 @@ def make(
         candidates; but the set may have other mazes then.
     store, cores
         As in `safe.run`.
-    folder : Path
-        Where the record is written.
+    folder : Path, optional
+        Where the record is written; by default into the package.
 
     Returns
     -------
@@ -262,7 +262,7 @@ def make(
             lines.append(line)
             shown.set_postfix(candidates=len(lines))
     header = {"set": name, "seed": seed, "contestants": [a.name for a, _ in contestants], "digest": digest(passed)}
-    path = folder / f"{name}.jsonl"
+    path = (folder or FOLDER) / f"{name}.jsonl"
     path.write_text("".join(json.dumps(line) + "\n" for line in [header, *lines]), encoding="utf-8", newline="\n")
     return path
 

@@ -267,7 +267,10 @@ def test_stale_copies_are_recognised(checkout, book_of, change):
     requested = {"runs": int(RUNS)}
     assert what_is_wrong(notebook, requested) is None
     copy, module = checkout / "executed" / notebook.name, checkout / "safe" / "robot.py"
-    measurements, record = checkout / "benchmarks" / "results.json", checkout / "safe/companion/record/runs.csv.xz"
+    measurements, record = (
+        checkout / "benchmarks" / "results.json",
+        checkout / "safe/companion/record/designs/runs.csv.xz",
+    )
     before = {file: file.read_bytes() for file in (notebook, copy, module, measurements, record)}
     if change == "notebook":
         notebook.write_bytes(before[notebook].replace(b"Who finds the goal", b"Who ever finds the goal"))
