@@ -102,11 +102,6 @@ class Record(NamedTuple):
     origins: list[Origin]
     files: dict[str, str]  # SHA-256 by name
 
-    @property
-    def numbers(self) -> dict[str, int]:
-        """The numbers of the experiments, by the first digits of their digests."""
-        return {entry.digest: number for number, entry in enumerate(self.experiments)}
-
 
 # What notebooks read
 
@@ -136,9 +131,7 @@ def runs(
     wanted, found = list(experiments), {}
     for collection in COLLECTIONS:
         record = _record(collection)
-        numbers = {
-            e: n for e in wanted if (n := _number_of(e, record)) is not None and record.experiments[n].runs >= e.runs
-        }
+        numbers = {e: n for e, n in _numbers(wanted, record).items() if record.experiments[n].runs >= e.runs}
         if not numbers:
             continue
         tables = dict(iter(_table(collection, RUNS, record).groupby("experiment")))
@@ -187,7 +180,7 @@ def traces(
     unknown, found = list(experiments), {}
     for collection in COLLECTIONS:
         record = _record(collection)
-        numbers = {e: n for e in experiments if (n := _number_of(e, record)) is not None}
+        numbers = _numbers(experiments, record)
         unknown = [experiment for experiment in unknown if experiment not in numbers]
         if not any(record.experiments[number].traced for number in numbers.values()):
             continue
@@ -261,9 +254,10 @@ def _parsed(collection: Collection, name: str, text: str) -> pd.DataFrame:
     return pd.read_csv(io.StringIO(text), dtype=fractions)
 
 
-def _number_of(experiment: Experiment, record: Record) -> int | None:
-    """The number of an experiment in a record; None if it is not recorded."""
-    return record.numbers.get(experiment.digest[:DIGITS])
+def _numbers(experiments: Iterable[Experiment], record: Record) -> dict[Experiment, int]:
+    """The numbers in a record of those of the experiments that it has."""
+    numbers = {entry.digest: number for number, entry in enumerate(record.experiments)}
+    return {e: numbers[e.digest[:DIGITS]] for e in experiments if e.digest[:DIGITS] in numbers}
 
 
 def _damaged(collection: Collection, name: str, reason: str) -> ValueError:
@@ -518,7 +512,7 @@ def _compare(
         ):
             if found != wanted:
                 record, path = _record(collection), str(collection.folder / name)
-                entry = record.experiments[record.numbers[experiment.digest[:DIGITS]]]
+                entry = record.experiments[_numbers([experiment], record)[experiment]]
                 where = f", window {(line or expected).split(',')[2]}" if name == TRACES else ""
                 raise ValueError(
                     f"record must hold what its experiments make; got {path!r}, where run {run_number} "
