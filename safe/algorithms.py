@@ -145,6 +145,16 @@ class Algorithm:
         weights = len(self.components)
         return {"weights": weights, "goal": 2, "mixed": max(2, weights)}[self.kind]
 
+    def first_goal(self, number: int) -> int:
+        """From which one on so many objective functions are goals; `number` if none is.
+
+        Examples
+        --------
+        >>> Algorithm("both", kind="mixed").first_goal(200)
+        100
+        """
+        return {"weights": number, "goal": 0, "mixed": number // 2}[self.kind]
+
     @property
     def content(self) -> dict:
         """What the algorithm does, whatever its name, by field; choices only if they depart from the paper's.

@@ -16,7 +16,7 @@ generation at random.
 Each choice beyond the paper concerns one step: `admission`, of end points to the archive, and `components` and their
 `scaling` belong to step 2 (`safe.novelty`, `safe.paths`, `safe.judges`); `kind`, of objective functions, to step 3;
 `rating` to step 5 (`safe.judges`); `judging` and `pool` to step 6 (`safe.operators`, `safe.repertoire`). A solution's
-fitness and winner, by which coefficients are reported, always follow Algorithm 1, whoever selects the parents. The
+fitness and winner, by which coefficients are reported, always follow Algorithm 1, however parents are selected. The
 repertoire takes in the solutions of a generation after step 4, in order.
 
 All randomness of a run comes from one numpy.random.Generator(SFC64(seed)), and only from its method `random()`, in this
@@ -278,7 +278,7 @@ def start_run(
         )
     components = np.array([WEIGHABLE.index(name) for name in algorithm.components])
     n, m = len(genomes), len(objectives)
-    first_goal = {"weights": m, "goal": 0, "mixed": m // 2}[algorithm.kind]
+    first_goal = algorithm.first_goal(m)
     weighed = np.array(
         [bool(first_goal and (evolving or objectives[:first_goal, c].any())) for c in range(len(components))]
     )

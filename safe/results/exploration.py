@@ -127,8 +127,7 @@ def places_of(maze: Maze, goals: np.ndarray) -> np.ndarray:
 
 def _goals(experiment: Experiment, objectives: np.ndarray) -> np.ndarray:
     """Those of the objective functions that are goals."""
-    first = {"weights": len(objectives), "goal": 0, "mixed": len(objectives) // 2}[experiment.algorithm.kind]
-    return objectives[first:]
+    return objectives[experiment.algorithm.first_goal(len(objectives)) :]
 
 
 def _goal_measures(goals: np.ndarray, ends: np.ndarray, maze: Maze) -> dict[str, float]:
