@@ -1,8 +1,9 @@
 """The contest: search algorithms on mazes for which none of them was made; and three kinds of coevolution.
 
-All contestants were compared on the design set, with one seed, to find out what to ask. Then the contrasts and the rule
-of their decision were written down, and their contestants ran on the test set, once, with another seed (see
-`safe.companion.held_out` for the mazes). Each contestant has the paper's operators, or mutation alone.
+All contestants were compared on mazes of the design set, with one seed, to find out what to ask. Then the contrasts and
+the rule of their decision were written down, and their contestants ran on the test set, once, with another seed (see
+`safe.companion.held_out` for the mazes). Each contestant has the paper's operators, or mutation alone. What was tried
+is recorded, too: all contestants, with the first seed, on the whole design set and on known mazes.
 """
 
 from __future__ import annotations
@@ -21,11 +22,13 @@ from safe.maze import Maze
 from safe.maze_files import load_mazes
 from safe.results.labels import maze_labels
 
-EXPLORED = 5  # runs of each contestant on each maze of the design set
+TRIED = 5  # recorded runs of each contestant on each maze of the design set
+TRIED_ON_KNOWN = 20  # the same on each known maze
 RUNS = 500  # that are recorded of the three kinds; of a contestant, the SHARE of it on each maze
 SHARE = 0.1
 TRACED = 20  # recorded runs of a kind inside which is looked
 LOOKED = 1  # the same of a contestant on each maze
+KNOWN = (*MAZES, "medium", "hard")  # mazes that the designer knows: the paper's, and Lehman and Stanley's
 
 # Contestants
 
@@ -72,6 +75,8 @@ def _searches() -> Iterator[Contestant]:
 
 def _baselines() -> Iterator[Contestant]:
     family = "baselines"
+    yield Contestant("random search", family, {"objectives": []}, {})
+    yield Contestant("the standard EA", family, {"objectives": [(1, 0)]}, {})
     yield Contestant("MAP-Elites", family, {"objectives": [], "pool": "repertoire"}, {})
     for size in (5, 20):
         fields = {"objectives": [(1,)], "components": ("1 / way",)}
@@ -194,10 +199,10 @@ def decided(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
     return contest(mazes, list(ends), max(1, round(runs * SHARE)), seed)
 
 
-def explored() -> Design:
-    """All contestants, on the design set."""
+def tried(mazes: Sequence[Maze], runs: int) -> Design:
+    """All contestants, with the seed of what was tried."""
     ends = product([one.name for one in contestants()], VARIATION)
-    return contest(held_out.design_set(), list(ends), EXPLORED, EXPLORING)
+    return contest(mazes, list(ends), runs, EXPLORING)
 
 
 def contest(mazes: Sequence[Maze], ends: Sequence[tuple[str, str]], runs: int, seed: int) -> Design:
@@ -242,6 +247,12 @@ def kinds(mazes: Sequence[Maze], runs: int, seed: int) -> Design:
 
 
 # Everything
+
+
+def everything_tried() -> list[Recorded]:
+    """All that is recorded of what was tried, in the order of the record."""
+    designs = tried(held_out.design_set(), TRIED), tried(load_mazes(list(KNOWN)), TRIED_ON_KNOWN)
+    return [Recorded(experiment) for design in designs for experiment in design.cells.values()]
 
 
 def everything() -> list[Recorded]:

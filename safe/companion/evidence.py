@@ -81,6 +81,7 @@ class Collection:
 COLLECTIONS = (
     Collection("designs", designs.everything, COEFFICIENTS, mechanism),
     Collection("contest", contest.everything, (), exploration),
+    Collection("tried", contest.everything_tried, (), exploration),
 )
 DIGITS = 16  # of a digest, which tell an experiment from all others
 
