@@ -11,12 +11,13 @@ import pytest
 import safe
 from benchmarks import straightforward
 from safe import Experiment, Parameters
+from safe.companion import paper
 
 RUNS = int(os.environ.get("RUNS", 500))
 STRAIGHTFORWARD_RUNS = 2  # one takes some seconds
 
 experiments = pytest.mark.parametrize(
-    ("algorithm", "maze"), [(algorithm, maze) for maze in ("maze1", "maze2") for algorithm in safe.ALGORITHMS]
+    ("algorithm", "maze"), [(algorithm, maze) for maze in ("maze1", "maze2") for algorithm in paper.ALGORITHMS]
 )
 
 

@@ -186,6 +186,16 @@ ALGORITHMS = {
         Algorithm("safe", objectives=None, rating="genotypic novelty"),
         Algorithm("fixed", objectives=[(0.5, 0.5)]),
         Algorithm("random", objectives=[]),
+        # beyond the paper: what the book ends with as its best
+        Algorithm(
+            "weighing-and-goals",
+            rating="redrawn",
+            scaling="rank",
+            judging="favourite",
+            kind="mixed",
+            components=("1 / distance", "novelty", "path rarity"),
+            pool="repertoire",
+        ),
     )
 }
 

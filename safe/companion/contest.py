@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from itertools import combinations, product
 
 from safe import checks
-from safe.algorithms import Algorithm, Parameters
+from safe.algorithms import ALGORITHMS, Algorithm, Parameters
 from safe.companion import held_out
 from safe.companion.designs import ARCHIVES, DECIDING, EXPLORING, VARIATION, Design, Level, Recorded
 from safe.companion.paper import MAZES
@@ -119,6 +119,8 @@ def _both() -> Iterator[Contestant]:
     for (where, pool), rated in product(POOLS.items(), ("frozen", "redrawn")):
         fields = BOTH | {"rating": RATED[rated], "pool": pool}
         yield Contestant(f"weighing and goals {where}, {rated}", "both", fields, RANDOM_ARCHIVE)
+    name, best = CHALLENGERS[0], ALGORITHMS["weighing-and-goals"].content
+    yield Contestant(f"{name}, the paper's archive", "both", best, {})
 
 
 # Questions

@@ -7,11 +7,12 @@ from pathlib import Path
 
 import pandas as pd
 
-from safe.algorithms import ALGORITHMS, Parameters
+from safe.algorithms import Parameters, get_algorithm
 from safe.experiments.experiment import Experiment
 from safe.maze_files import is_packaged
 
 MAZES = ("maze1", "maze2")
+ALGORITHMS = ("standard", "novelty", "safe", "fixed", "random")  # by their names in `safe.ALGORITHMS`
 
 
 def published() -> pd.DataFrame:
@@ -25,7 +26,8 @@ def is_the_papers(experiment: Experiment) -> bool:
     return (
         experiment.maze.name in MAZES
         and is_packaged(experiment.maze)
-        and algorithm == ALGORITHMS.get(algorithm.name)
+        and algorithm.name in ALGORITHMS
+        and algorithm == get_algorithm(algorithm.name)
         and experiment.parameters == Parameters()
     )
 

@@ -25,7 +25,7 @@ SEEDS_OF_SECOND_LOOK = range(1, 5)
 
 def experiments():
     """Every experiment of the ledger's first look."""
-    return [safe.Experiment(algorithm, maze) for maze in paper.MAZES for algorithm in safe.ALGORITHMS]
+    return [safe.Experiment(algorithm, maze) for maze in paper.MAZES for algorithm in paper.ALGORITHMS]
 
 
 def repetitions(experiment):

@@ -43,6 +43,15 @@ export const ALGORITHMS = {
   safe: completed({ name: "safe", rating: "genotypic novelty" }),
   fixed: completed({ name: "fixed", objectives: [[0.5, 0.5]] }),
   random: completed({ name: "random", objectives: [] }),
+  "weighing-and-goals": completed({ // beyond the paper
+    name: "weighing-and-goals",
+    rating: "redrawn",
+    scaling: "rank",
+    judging: "favourite",
+    kind: "mixed",
+    components: WEIGHABLE.slice(0, 3),
+    pool: "repertoire",
+  }),
 };
 
 /** An algorithm with all that it does not say. */

@@ -104,7 +104,8 @@ export function makeAlgorithmChoice(store) {
     // the others are offered with the choices of the selected ones, to be compared with them
     const common = Object.fromEntries(["scaling", "judging"].map((name) => [name, firstWith(store, name)[name]]));
     const named = Object.values(ALGORITHMS).map((base) =>
-      selected.find((algorithm) => baseOf(algorithm) === base) ?? withChoices(base, common)
+      selected.find((algorithm) => baseOf(algorithm) === base) ??
+        (base.kind === "weights" ? withChoices(base, common) : base)
     );
     const options = new Set([...named, ...selected]);
     const focused = choice.contains(document.activeElement) ? document.activeElement.value : null;

@@ -9,6 +9,10 @@ const LABELS = {
   safe: { title: "SAFE", summary: "evolves what to reward as well" },
   fixed: { title: "Fixed weights", summary: "rewards closeness and novelty, half and half" },
   random: { title: "Random search", summary: "rewards nothing: new robots, drawn by chance" },
+  "weighing-and-goals": {
+    title: "Weighing and goals",
+    summary: "rewards closeness, novelty and rare paths, weighed anew each time",
+  },
 };
 
 const WORDS = { // for choices and components, if not their own
