@@ -22,8 +22,8 @@ from safe.maze import Maze
 from safe.maze_files import load_mazes
 from safe.results.labels import maze_labels
 
-TRIED = 5  # recorded runs of each contestant on each maze of the design set
-TRIED_ON_KNOWN = 20  # the same on each known maze
+TRIED = 3  # recorded runs of each contestant on each maze of the design set
+TRIED_ON_KNOWN = 10  # the same on each known maze
 RUNS = 500  # that are recorded of the three kinds; of a contestant, the SHARE of it on each maze
 SHARE = 0.1
 TRACED = 20  # recorded runs of a kind inside which is looked

@@ -12,10 +12,13 @@ from collections.abc import Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from IPython import get_ipython
 from IPython.display import display
+from matplotlib.artist import Artist
+from matplotlib.figure import Figure
 
 from safe import checks
 from safe.companion import project
@@ -58,6 +61,27 @@ def show_table(table: pd.DataFrame, links: Sequence[Sequence[tuple[str, str]]], 
     display(
         table, metadata={"text/csv": {"links": [[list(link) for link in row] for row in links], "heading": heading}}
     )
+
+
+def show_figure(figure: Figure, links: Sequence[tuple[Artist, str, str]]) -> None:
+    """Show a figure, parts of which lead to the playground on the pages of the book.
+
+    Parameters
+    ----------
+    figure : Figure
+    links : sequence of (artist, text, address)
+        What is linked by the rectangle that it fills, what the link says, and an address in the playground.
+    """
+    figure.draw_without_rendering()
+    shown = figure.get_tightbbox().padded(plt.rcParams["savefig.pad_inches"])  # to which an image is cut
+    areas = []
+    for artist, text, address in links:
+        box = artist.get_window_extent().transformed(figure.dpi_scale_trans.inverted())
+        left, top = (box.x0 - shown.x0) / shown.width, (shown.y1 - box.y1) / shown.height
+        parts = left, top, box.width / shown.width, box.height / shown.height
+        areas.append([text, address, *(round(100 * part, 2) for part in parts)])
+    display(figure, metadata={"image/svg+xml": {"links": areas}})
+    plt.close(figure)
 
 
 def say(text: str) -> None:

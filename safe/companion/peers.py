@@ -20,25 +20,38 @@ solution are all in the first front, and can fill the population. The choice `co
                     all of these, in the same order, then the third latest, and so on
 
 Fronts are found by moocore, a package of the extra "book".
+
+    python -m safe.companion.peers      makes the recorded runs again: what was tried of NSGA-II
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from functools import cache
+from itertools import product
+from pathlib import Path
+from typing import NamedTuple
+
 import moocore
 import numpy as np
+import pandas as pd
 
 from safe import checks
 from safe.algorithms import Parameters
+from safe.companion import contest, held_out
+from safe.companion.designs import EXPLORING, VARIATION
 from safe.evolution import Run, Seed, compile_kernels, seed_sequence
 from safe.judges import Judges
 from safe.maze import Maze
-from safe.maze_files import load_maze
+from safe.maze_files import load_maze, load_mazes
 from safe.novelty import ADMISSIONS, LOWEST_REPLACED, admit, empty_archive, empty_occupancy, score_cells
 from safe.operators import Breeding, breed, draw_genomes, empty_offspring
 from safe.repertoire import empty_repertoire
 from safe.robot import WEIGHTS, endpoints
 
 COPIES = ("equal", "latest first")
+RECORD = Path(__file__).with_name("record") / "nsga2.csv"
 # tournaments go by preference, among the survivors alone:
 _NOBODY, _NOTHING = Judges(np.empty((0, 2)), np.empty((2, 0))), empty_repertoire((0, 0), WEIGHTS)
 
@@ -165,3 +178,95 @@ def crowding(objectives: tuple[np.ndarray, ...], fronts: np.ndarray) -> np.ndarr
         share[first] = share[last] = np.inf
         total[order] += share
     return total
+
+
+# What was tried
+
+
+class Tried(NamedTuple):
+    """A recorded run: the columns of the record that say how it is made."""
+
+    maze: str
+    copies: str
+    operators: str
+    run: int
+
+    def made(self) -> dict[str, int]:
+        """How it ends: success, generation and distance."""
+        rules = Parameters(**contest.RANDOM_ARCHIVE | VARIATION[self.operators])
+        place, maze = _mazes_tried()[self.maze]
+        found = nsga2(maze, (EXPLORING, place, self.run), rules, self.copies)
+        return {"success": int(found.success), "generation": found.generation, "distance": found.distance}
+
+
+def all_tried() -> Iterator[Tried]:
+    """The runs of the record, in its order: as many as of a contestant (`contest.everything_tried`)."""
+    for (label, (place, _)), copies, operators in product(_mazes_tried().items(), COPIES, VARIATION):
+        runs = contest.TRIED if place < held_out.SIZE else contest.TRIED_ON_KNOWN
+        yield from (Tried(label, copies, operators, run) for run in range(runs))
+
+
+def counts() -> pd.DataFrame:
+    """Successes and runs of NSGA-II on each maze, as `safe.companion.standings.counts` gives those of contestants."""
+    table = pd.read_csv(RECORD)
+    table["contestant"] = "NSGA-II, copies " + table.copies
+    table["evaluations"] = (table.generation + 1) * Parameters().population
+    groups = table.groupby(["contestant", "operators", "maze"], sort=False)
+    return groups.agg(successes=("success", "sum"), runs=("run", "size"), evaluations=("evaluations", "sum"))
+
+
+def verify(sample: int = 2, seed: int | None = None) -> int:
+    """Make some of the recorded runs again, and compare them.
+
+    Parameters
+    ----------
+    sample : int
+        How many, drawn at random; all if there are no more.
+    seed : int, optional
+        The seed of the draw; by default every draw differs.
+
+    Returns
+    -------
+    int
+        How many runs were made again.
+
+    Raises
+    ------
+    ValueError
+        If the record does not hold the runs of `all_tried`, or a run differs from what it makes.
+    """
+    header, *lines = RECORD.read_text(encoding="utf-8").splitlines()
+    wanted = list(all_tried())
+    if [line.rsplit(",", 3)[0] for line in lines] != [",".join(map(str, one)) for one in wanted]:
+        raise ValueError(f"record must hold the runs that were designed; got others in {str(RECORD)!r}")
+    drawn = np.random.default_rng(seed).permutation(len(lines))[:sample]
+    for place in drawn:
+        if lines[place] != (made := _line(wanted[place])):
+            raise ValueError(
+                f"record must hold what its runs make; got {lines[place]!r} instead of {made!r} ({header})"
+            )
+    return len(drawn)
+
+
+@cache
+def _mazes_tried() -> dict[str, tuple[int, Maze]]:
+    """The mazes of the design set and the known ones, each by its name with its place."""
+    mazes = [*held_out.design_set(), *load_mazes(list(contest.KNOWN))]
+    return {maze.name: (place, maze) for place, maze in enumerate(mazes)}
+
+
+def _line(tried: Tried) -> str:
+    return ",".join(map(str, (*tried, *tried.made().values())))
+
+
+def main() -> None:
+    with ProcessPoolExecutor() as pool:
+        lines = list(pool.map(_line, all_tried(), chunksize=8))
+    header = ",".join((*Tried._fields, "success", "generation", "distance"))
+    RECORD.write_text("\n".join([header, *lines, ""]), encoding="utf-8", newline="\n")
+
+
+if __name__ == "__main__":
+    from safe.companion import peers  # other processes know what they are sent by this name, not as __main__
+
+    peers.main()

@@ -144,6 +144,13 @@ def paper_table(measured: pd.DataFrame) -> pd.DataFrame:
     )
 
 
+def contest_table(measured: pd.DataFrame) -> pd.DataFrame:
+    """What a generation of the contest's contestants costs, in microseconds, and over what the first one's does."""
+    contestants = _of(measured, "contest").set_index("contestant")
+    microseconds = 1e6 * contestants.seconds / contestants.generations
+    return pd.DataFrame({"microseconds": microseconds, "ratio": microseconds / microseconds.iloc[0]})
+
+
 def growth_table(measured: pd.DataFrame) -> pd.DataFrame:
     """Seconds at each size that is varied, for one generation or, if runs are varied, for a whole experiment."""
     growth = _of(measured, "growth")

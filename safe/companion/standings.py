@@ -11,10 +11,12 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
+from safe.companion import contest, evidence, held_out
 from safe.companion.contest import LEVELS, Contrast
-from safe.companion.designs import Design
-from safe.companion.findings import CONFIRMED, NOT_CONFIRMED, UNDECIDED
+from safe.companion.designs import DECIDING, VARIATION, Design
+from safe.companion.findings import BEYOND, CONFIRMED, NOT_CONFIRMED, UNDECIDED
 from safe.experiments.experiment import Experiment
+from safe.results import formats
 from safe.results.mixed import mixed_model
 from safe.results.statistics import compare_pairs, holm, mean_over_mazes
 
@@ -81,8 +83,8 @@ def answers(contrasts: list[Contrast], counts: Counts) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame, one row for each contrast
-        question, first, second, operators, mazes (how many count); first_rate and second_rate, the means over mazes;
-        difference, low and high: of these means, and the ends of its 95 % interval; better and worse: mazes on which
+        question, first, second, operators, mazes (how many count), runs (on each); first_rate and second_rate, the
+        means over mazes; difference, low and high: of these means, and the ends of its 95 % interval; better and worse: mazes on which
         the first has the higher rate, and the lower; p_value (Wilcoxon), p_holm; effect, error and p_model: of the
         binomial mixed model, in log odds; answer: "confirmed" if the first has the higher mean and p_holm is below
         the level of the question, "not confirmed" if it has the lower one and p_holm is, otherwise "undecided".
@@ -109,6 +111,7 @@ def answers(contrasts: list[Contrast], counts: Counts) -> pd.DataFrame:
                 "second": one.second,
                 "operators": one.operators,
                 "mazes": len(mazes),
+                "runs": int(first.runs.iloc[0]),
                 "first_rate": rates[0].mean(),
                 "second_rate": rates[1].mean(),
                 "difference": pair.difference,
@@ -131,3 +134,95 @@ def answers(contrasts: list[Contrast], counts: Counts) -> pd.DataFrame:
         UNDECIDED,
     )
     return table
+
+
+def as_findings(answers: pd.DataFrame, seen: Counts, seed: int) -> pd.DataFrame:
+    """A table of `answers` as rows of the ledger, with the columns of `safe.companion.findings.answers`.
+
+    Parameters
+    ----------
+    answers : DataFrame
+    seen : DataFrame
+        Counts of the runs by which the contrasts were found.
+    seed : int
+        Of the runs that decide.
+    """
+    before = seen.index.droplevel("maze").unique()
+    rows = []
+    for row in answers.itertuples():
+        keys = [(name, row.operators) for name in (row.first, row.second)]
+        explored = _rates(*(_mean_rate(seen.loc[key]) for key in keys)) if {*keys} <= {*before} else formats.DASH
+        statement = f"{row.first} succeeds more often than {row.second} ({row.operators})"
+        rows.append(
+            {
+                "claim": f"unseen mazes: {statement}",
+                "source": "here",
+                "statement": statement,
+                "family": f"{BEYOND}: contest",
+                "paper": formats.DASH,
+                "here": _rates(row.first_rate, row.second_rate),
+                "evidence": f"{row.mazes} mazes, {row.runs} runs on each, seed {seed}",
+                "test": "Wilcoxon, bootstrap",
+                "direction": 1,
+                "difference": row.difference,
+                "low": row.low,
+                "high": row.high,
+                "p_value": row.p_value,
+                "effect": row.effect,
+                "p_equivalence": np.nan,
+                "maze": "unseen mazes",
+                "explored": explored,
+                "p_adjusted": row.p_holm,
+                "verdict": row.answer,
+            }
+        )
+    return pd.DataFrame(rows).set_index("claim")
+
+
+def on_unseen_mazes(runs: int) -> pd.DataFrame:
+    """The contest's answers by recorded runs alone, as rows of the ledger; `runs` is that of `contest.decided`."""
+    design = contest.decided(held_out.test_set(), min(runs, contest.RUNS), DECIDING)
+    decided = answers(contest.contrasts(), counts(design, evidence.runs(design.cells.values())))
+    return as_findings(decided, tried(), DECIDING)
+
+
+def tried() -> Counts:
+    """The counts of all that was tried on the design set, recorded runs of NSGA-II among them."""
+    design = contest.tried(held_out.design_set(), contest.TRIED)
+    return counts(design, evidence.runs(design.cells.values()))
+
+
+def readable_tried(on_design_set: Counts, on_known: Counts) -> pd.DataFrame:
+    """What was tried, to read, family by family, in each the best with mutation alone in front.
+
+    Returns
+    -------
+    pandas.DataFrame, indexed by family and contestant
+        For each set of operators the mean rate on the design set in percent, with its 95 % interval; for each known
+        maze the successes, with one set of operators after the other.
+    """
+    families = {one.name: one.family for one in contest.contestants()}
+    of_design = ladder(on_design_set).reset_index()
+    of_design["family"] = of_design.contestant.map(families).fillna("peers")
+    best = of_design[of_design.operators == "mutation alone"].set_index("contestant").rate
+    order = [*dict.fromkeys(families.values()), "peers"]
+    rows = {}
+    for (family, name), found in of_design.groupby(["family", "contestant"]):
+        by_operators = found.set_index("operators")
+        row = {
+            operators: "{:.0f} ({:.0f} to {:.0f})".format(*100 * by_operators.loc[operators, ["rate", "low", "high"]])
+            for operators in VARIATION
+        }
+        for maze in on_known.index.unique("maze"):
+            row[maze] = ", ".join(str(on_known.successes[name, operators, maze]) for operators in VARIATION)
+        rows[family, name] = row
+    keys = sorted(rows, key=lambda key: (order.index(key[0]), -best[key[1]], key[1]))
+    return pd.DataFrame([rows[key] for key in keys], pd.MultiIndex.from_tuples(keys, names=["family", "contestant"]))
+
+
+def _mean_rate(of_one: Counts) -> float:
+    return float((of_one.successes / of_one.runs).mean())
+
+
+def _rates(first: float, second: float) -> str:
+    return f"{100 * first:.0f} % against {100 * second:.0f} %"

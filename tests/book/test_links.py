@@ -37,21 +37,22 @@ ABOUT_RUNS = {
     "tab-unevolved-coefficients",
 }
 ABOUT_RECORDED_RUNS = {"tab-archives", "tab-kinds", "tab-mutualism", "tab-selects", "tab-settings"}
-ABOUT_SCENES = {"tab-archives-watch", "tab-kinds-watch", "tab-mutualism-watch", "tab-selects-watch"}
+ABOUT_SCENES = {"tab-archives-watch", "tab-contest-watch", "tab-kinds-watch", "tab-mutualism-watch", "tab-selects-watch"}
 ABOUT_ROBOTS = {"tab-known", "tab-mazes", "tab-mean-controller"}
-ABOUT_UNSEEN = {"tab-unseen-open"}
 ABOUT_NEITHER = {
     "tab-archives-answers",
     "tab-archives-inside",
     "tab-beyond",
-    *(f"tab-beyond-{name}" for name in all_questions()),
+    *(f"tab-beyond-{name}" for name in (*all_questions(), "contest")),
     "tab-budget",
     "tab-contest-asked",
+    "tab-contest-cost",
     "tab-contest-coevolution",
     "tab-contest-fair",
     "tab-contest-inside",
     "tab-contest-many",
     "tab-contest-novelty",
+    "tab-contest-tried",
     "tab-cost",
     "tab-effects",
     "tab-effects-answers",
@@ -108,7 +109,7 @@ def addresses_of(links):
 
 
 def test_every_table_is_about_runs_or_robots_or_neither(linked):
-    assert set(linked) == ABOUT_RUNS | ABOUT_RECORDED_RUNS | ABOUT_SCENES | ABOUT_ROBOTS | ABOUT_UNSEEN | ABOUT_NEITHER
+    assert set(linked) == ABOUT_RUNS | ABOUT_RECORDED_RUNS | ABOUT_SCENES | ABOUT_ROBOTS | ABOUT_NEITHER
 
 
 @pytest.mark.parametrize("name", sorted(ABOUT_RUNS | ABOUT_ROBOTS))
@@ -129,11 +130,19 @@ def test_every_row_about_runs_or_robots_leads_to_them(checkout, linked, name):
                     assert values[key].split(":")[0] == row[key], link
 
 
-def test_every_unseen_maze_can_be_driven_in(linked):
-    links = [link for name in ABOUT_UNSEEN for _, of_row in linked[name] for link in of_row]
-    mazes = [*held_out.design_set(), *held_out.test_set()]
-    assert [text for text, _ in links] == 2 * [str(number) for number in range(1, 61)]
-    assert addresses_of(links) == [drive_address(maze) for maze in mazes]
+def test_every_unseen_maze_on_the_sheets_can_be_driven_in(checkout):
+    page = (checkout / "_build" / "html" / "notebooks" / "gallery.html").read_text()
+    sheets = re.findall(r'<div class="linked.*?</div>', page, re.DOTALL)
+    for name, mazes, sheet in zip(
+        ("design", "test"), (held_out.design_set(), held_out.test_set()), sheets, strict=True
+    ):
+        links = [(text, html.unescape(link)) for link, text in re.findall(r'<a href="(.*?)" title="(.*?)"', sheet)]
+        assert [text for text, _ in links] == [f"{name} {number}" for number in range(1, len(mazes) + 1)]
+        assert addresses_of(links) == [drive_address(maze) for maze in mazes]
+        assert {link.split("#")[0] for _, link in links} == {"../book/playground.html"}
+        places = [tuple(map(float, place)) for place in re.findall(r"left: ([\d.]+)%; top: ([\d.]+)%", sheet)]
+        assert places == sorted(places, key=lambda place: (place[1], place[0]))
+        assert len({top for _, top in places}) == 6
 
 
 def test_other_rows_have_no_links(linked):
@@ -198,7 +207,7 @@ def test_a_row_about_recorded_runs_leads_to_them(checkout, linked, name):
 def test_every_scene_leads_to_a_run_to_watch(linked, name):
     for _, links in linked[name]:
         ((_, link),) = links
-        assert re.match(r"\.\./book/playground\.html#view=watch&maze=\w+&algorithm=[^&]+&", link), link
+        assert re.match(r"\.\./book/playground\.html#view=watch&maze=[^&]+&algorithm=[^&]+&", link), link
 
 
 def test_a_row_leads_to_the_first_run_that_succeeded_or_else_to_run_0(checkout, linked):

@@ -1,5 +1,6 @@
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import pandas as pd
 import pytest
 from IPython.core.interactiveshell import InteractiveShell
@@ -68,6 +69,26 @@ def test_a_table_with_links_is_shown_as_it_is_and_its_links_beside_the_csv(shell
     (output,) = captured.outputs
     assert output.data == plain
     assert output.metadata == {"text/csv": {"links": [[["run 3", "view=watch"]], []], "heading": "replay"}}
+
+
+def test_a_figure_has_its_links_where_their_parts_are(shell):
+    notebook.prepare()
+    figure, axes = plt.subplots(figsize=(4, 2), layout="none")
+    axes.set_position((0, 0, 1, 1))
+    left, right = axes.imshow([[0]], extent=(0, 1, 0, 1)), axes.imshow([[0]], extent=(3, 4, 1, 2))
+    axes.set(xlim=(0, 4), ylim=(0, 2))
+    axes.set_axis_off()
+    with capture_output(stdout=False, stderr=False) as captured:
+        notebook.show_figure(figure, [(left, "one", "view=drive"), (right, "other", "view=watch")])
+    (output,) = captured.outputs
+    pad = plt.rcParams["savefig.pad_inches"]
+    width, height = 4 + 2 * pad, 2 + 2 * pad
+    found = output.metadata["image/svg+xml"]["links"]
+    assert [link[:2] for link in found] == [["one", "view=drive"], ["other", "view=watch"]]
+    for (_, _, *found_box), (x, y) in zip(found, ((0, 1), (3, 0)), strict=True):
+        box = [(x + pad) / width, (y + pad) / height, 1 / width, 1 / height]
+        assert found_box == pytest.approx([100 * part for part in box], abs=0.02)
+    assert plt.get_fignums() == []
 
 
 def test_links_of_another_number_of_rows():

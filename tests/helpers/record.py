@@ -14,7 +14,7 @@ import pandas as pd
 
 import safe
 from safe.algorithms import COEFFICIENTS
-from safe.companion import designs, findings, ledger, paper
+from safe.companion import designs, findings, ledger, paper, standings
 from safe.experiments.experiment import WEIGHT_COLUMNS
 from safe.maze_files import load_mazes
 
@@ -68,7 +68,9 @@ def write(table, file):
 
 def answers():
     """The answers to all questions beyond the paper."""
-    return findings.beyond_the_paper(load_mazes(list(paper.MAZES)), designs.RUNS[designs.DECIDING])
+    runs = designs.RUNS[designs.DECIDING]
+    of_mazes = findings.beyond_the_paper(load_mazes(list(paper.MAZES)), runs)
+    return pd.concat([of_mazes, standings.on_unseen_mazes(runs)])
 
 
 if __name__ == "__main__":

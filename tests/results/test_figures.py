@@ -106,6 +106,9 @@ def test_an_animation_loads_nothing():
     assert len(frames) == 4
     assert len(sizes) == 1
     assert figures.animate(maze, of_run[:1]).count("iVBOR") == 1
+    drawn = []
+    figures.animate(maze, of_run, 4, lambda index: drawn.append(index) or figures.plot_mazes([maze]))
+    assert drawn == [0, 3, 5, 8]
     assert plt.get_fignums() == []
 
 

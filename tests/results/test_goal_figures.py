@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from safe import Algorithm, Experiment, Maze, Parameters
-from safe.results.figures.goals import plot_autocorrelations, plot_goals
+from safe.results.figures.goals import plot_autocorrelations, plot_choices, plot_goals
 from tests.helpers import oracle
 
 mpl.use("agg")
@@ -48,6 +48,29 @@ def test_every_place_has_a_line_to_the_robot_that_ends_nearest(story):
     nearest = [min(ends, key=lambda end: oracle.taxicab(place, end)) for place in places]
     assert joined == [list(pair) for pair in zip(places, nearest, strict=True)]
     assert len(set(ends)) > 1
+
+
+def test_choices_lead_from_goals_to_the_parents_that_they_chose():
+    both = Algorithm(
+        "both", kind="mixed", judging="favourite", pool="repertoire", components=("novelty",), rating="redrawn"
+    )
+    parameters = Parameters(population=12, objectives=8, generations=4, steps=6, success_distance=0)
+    before, after = list(Experiment(both, MAZE, seed=3, parameters=parameters).replay(0))[2:4]
+    _, (axes,) = plot_choices(MAZE, both, [(before, after)])
+    chosen, weighed = [], []
+    for parent, judge in zip(after.parents, after.chosen_by, strict=True):
+        if judge >= 4:  # half of the eight are goals
+            a, b = before.objectives[judge][:2]
+            chosen.append([(int(4 * a), int(10 * b)), tuple(before.repertoire[1][parent])])
+        elif judge >= 0:
+            weighed.append(tuple(before.endpoints[parent]))
+    assert chosen
+    assert weighed
+    (lines,) = axes.collections
+    assert [[(row, column) for column, row in segment] for segment in lines.get_segments()] == chosen
+    assert drawn(axes, "x") == [goal for goal, _ in chosen]
+    assert drawn(axes, "+") == weighed
+    assert axes.get_title() == "generation 2"
 
 
 def test_rows_may_be_shorter_and_titles_are_no_mathematics(story):

@@ -13,6 +13,7 @@ from safe.results.figures.mazes import (
     plot_neighbours,
     plot_paths,
     plot_sensors,
+    plot_sheet,
 )
 from safe.results.figures.runs import animate, plot_generation, plot_judging, plot_progress
 from safe.results.figures.samples import plot_coefficients, plot_success, plot_success_curves, plot_weights
@@ -38,6 +39,7 @@ __all__ = [
     "plot_progress",
     "plot_rates",
     "plot_sensors",
+    "plot_sheet",
     "plot_success",
     "plot_success_curves",
     "plot_weights",

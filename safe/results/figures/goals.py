@@ -10,11 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
+from safe.algorithms import Algorithm
 from safe.evolution import Generation
 from safe.maze import Maze
 from safe.results.exploration import places_of
 from safe.results.figures.mazes import draw_maze
-from safe.results.figures.style import FAINT, PATH, legend_below, plain
+from safe.results.figures.style import FAINT, PATH, WALL, legend_below, plain
 
 PLACE = "#CC79A7"
 
@@ -40,6 +41,49 @@ def draw_goals(axes: Axes, maze: Maze, generation: Generation) -> None:
     ):
         style = {"markersize": 4, "color": colour, "linestyle": "none", "label": label, "zorder": 3}
         axes.plot(points[:, 1], points[:, 0], marker, **style)
+
+
+def draw_choices(axes: Axes, maze: Maze, algorithm: Algorithm, before: Generation, after: Generation) -> None:
+    """Draw who chose whom: the parents of a generation, where they ended, and the goals that chose them.
+
+    Parameters
+    ----------
+    axes : Axes
+    maze : Maze
+    algorithm : Algorithm
+        One by which goals choose parents.
+    before, after : Generation
+        Of a run, one after the other; the parents are those of the second.
+    """
+    first_goal = algorithm.first_goal(len(before.objectives))
+    by_goal, by_weights = after.chosen_by >= first_goal, (after.chosen_by >= 0) & (after.chosen_by < first_goal)
+    known = before.endpoints if before.repertoire is None else before.repertoire[1]
+    goals = places_of(maze, before.objectives[after.chosen_by[by_goal]])
+    chosen, weighed = known[after.parents[by_goal]], before.endpoints[after.parents[by_weights]]
+    draw_maze(axes, maze)
+    lines = np.stack([goals, chosen], axis=1)[:, :, ::-1]
+    axes.add_collection(LineCollection(lines, colors=FAINT, linewidths=0.5, zorder=2), autolim=False)
+    for points, marker, size, colour, label in (
+        (known, ".", 2, FAINT, "where robots have ended"),
+        (goals, "x", 4, PLACE, "places that chose"),
+        (chosen, ".", 5, PATH, "whom they chose"),
+        (weighed, "+", 6, WALL, "whom weights chose"),
+    ):
+        style = {"markersize": size, "color": colour, "linestyle": "none", "label": label, "zorder": 3}
+        if len(points):
+            axes.plot(points[:, 1], points[:, 0], marker, **style)
+    axes.set_title(f"generation {before.generation}")
+
+
+def plot_choices(
+    maze: Maze, algorithm: Algorithm, pairs: Sequence[tuple[Generation, Generation]]
+) -> tuple[Figure, np.ndarray]:
+    """Who chose whom at some times of a run, a panel for each pair of generations (see `draw_choices`)."""
+    figure, grid = plt.subplots(1, len(pairs), figsize=(3.4 * len(pairs), 3.9), squeeze=False)
+    for axes, pair in zip(grid[0], pairs, strict=True):
+        draw_choices(axes, maze, algorithm, *pair)
+    legend_below(figure)
+    return figure, grid[0]
 
 
 def plot_goals(maze: Maze, rows: Sequence[Sequence[tuple[Generation, str]]]) -> tuple[Figure, np.ndarray]:

@@ -62,6 +62,32 @@ def plot_mazes(mazes: Sequence[Maze]) -> tuple[Figure, np.ndarray]:
     return plot_paths([[(maze, None, label) for maze, label in zip(mazes, maze_labels(mazes), strict=True)]])
 
 
+def plot_sheet(mazes: Sequence[Maze], columns: int = 10) -> tuple[Figure, Axes]:
+    """Many mazes on one sheet, row by row, each with its number above, from 1; the axes have an image of each."""
+    side, gap = max(max(maze.shape) for maze in mazes), 16
+    lines = -(-len(mazes) // columns)
+    figure, axes = plt.subplots(figsize=(9.6, 9.6 * lines / columns + 0.4))
+    for number, maze in enumerate(mazes):
+        top, left = ((side + gap) * place for place in divmod(number, columns))
+        height, width = maze.shape
+        extent = left - 0.5, left + width - 0.5, top + height - 0.5, top - 0.5
+        axes.imshow(
+            maze.walls, cmap=ListedColormap(["white", WALL]), vmin=0, vmax=1, interpolation="none", extent=extent
+        )
+        axes.text(left + width / 2, top - 2, str(number + 1), ha="center", va="bottom", fontsize=7)
+        for (row, column), marker, size, colour, label in (
+            (maze.start, "o", 4, START, "start"),
+            (maze.goal, "*", 7, GOAL, "goal"),
+        ):
+            style = {"markersize": size, "color": colour, "markeredgewidth": 0, "linestyle": "none", "label": label}
+            axes.plot(left + column, top + row, marker, **style)
+    across = (side + gap) * min(columns, len(mazes)) - gap
+    axes.set(xlim=(-0.5, across - 0.5), ylim=((side + gap) * lines - gap - 0.5, -gap))
+    axes.set_axis_off()
+    legend_below(figure)
+    return figure, axes
+
+
 def plot_paths(rows: Sequence[Sequence[tuple[Maze, np.ndarray | None, str]]]) -> tuple[Figure, np.ndarray]:
     """Rows of mazes, each with a path (or None) and a title; the axes have the shape (rows, mazes in the longest)."""
     columns = max(len(row) for row in rows)

@@ -8,7 +8,7 @@ import html
 import io
 import json
 import string
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -133,15 +133,30 @@ def plot_generation(maze: Maze, generation: Generation) -> tuple[Figure, np.ndar
     return figure, grid[0]
 
 
-def animate(maze: Maze, story: Sequence[Generation], frames: int = 30) -> str:
-    """A run as HTML: frames of `plot_generation`, evenly spread, with a button to play and a slider.
+def animate(
+    maze: Maze,
+    story: Sequence[Generation],
+    frames: int = 30,
+    plot: Callable[[int], tuple[Figure, object]] | None = None,
+) -> str:
+    """A run as HTML: frames, evenly spread, with a button to play and a slider.
 
     The page loads nothing, and plays without a kernel.
+
+    Parameters
+    ----------
+    maze : Maze
+    story : sequence of Generation
+    frames : int
+        How many, if the run has so many generations.
+    plot : function, optional
+        Draws a frame, given the place of its generation in the story; `plot_generation` by default.
     """
+    draw = plot or (lambda index: plot_generation(maze, story[index]))
     chosen = np.unique(np.linspace(0, len(story) - 1, frames).round().astype(int))
     images, shown, places = [], None, []
     for index in chosen:
-        figure, _ = plot_generation(maze, story[index])
+        figure, _ = draw(index)
         if shown is None:  # the first frame's layout is that of all, and all are cut to what it fills
             figure.draw_without_rendering()
             shown = figure.get_tightbbox().padded(0.05)
