@@ -3,13 +3,15 @@ import dataclasses
 import pytest
 
 from safe import ALGORITHMS, Algorithm, Parameters
+from safe.companion import paper
 
 
 def test_the_papers_algorithms():
     choices = "scaling", "judging", "kind", "components", "pool"
     papers = "raw", "best score", "weights", ("1 / distance", "novelty"), "generation"
-    assert {tuple(getattr(algorithm, choice) for choice in choices) for algorithm in ALGORITHMS.values()} == {papers}
-    assert {name: (a.objectives, a.rating) for name, a in ALGORITHMS.items()} == {
+    found = {name: ALGORITHMS[name] for name in paper.ALGORITHMS}
+    assert {tuple(getattr(algorithm, choice) for choice in choices) for algorithm in found.values()} == {papers}
+    assert {name: (a.objectives, a.rating) for name, a in found.items()} == {
         "standard": (((1.0, 0.0),), "none"),
         "novelty": (((0.0, 1.0),), "none"),
         "safe": (None, "genotypic novelty"),

@@ -200,7 +200,8 @@ def test_at_the_goal_the_component_is_two():
         ({"maze": "maze3"}, "maze must be one of 'hard', 'maze1', 'maze2', 'medium'"),
         (
             {"algorithm": "saef"},
-            "algorithm must be one of 'standard', 'novelty', 'safe', 'fixed', 'random'; got 'saef'",
+            "algorithm must be one of 'standard', 'novelty', 'safe', 'fixed', 'random', "
+            "'weighing-and-goals'; got 'saef'",
         ),
         ({"algorithm": None}, "algorithm must be one of"),
         ({"seed": -1}, "seed must be a non-negative integer, a sequence of them, or a SeedSequence; got -1"),

@@ -84,10 +84,11 @@ def answers(contrasts: list[Contrast], counts: Counts) -> pd.DataFrame:
     -------
     pandas.DataFrame, one row for each contrast
         question, first, second, operators, mazes (how many count), runs (on each); first_rate and second_rate, the
-        means over mazes; difference, low and high: of these means, and the ends of its 95 % interval; better and worse: mazes on which
-        the first has the higher rate, and the lower; p_value (Wilcoxon), p_holm; effect, error and p_model: of the
-        binomial mixed model, in log odds; answer: "confirmed" if the first has the higher mean and p_holm is below
-        the level of the question, "not confirmed" if it has the lower one and p_holm is, otherwise "undecided".
+        means over mazes; difference, low and high: of these means, and the ends of its 95 % interval; better and
+        worse: mazes on which the first has the higher rate, and the lower; p_value (Wilcoxon), p_holm; effect, error
+        and p_model: of the binomial mixed model, in log odds; answer: "confirmed" if the first has the higher mean and
+        p_holm is below the level of the question, "not confirmed" if it has the lower one and p_holm is, otherwise
+        "undecided".
 
     Raises
     ------

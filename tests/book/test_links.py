@@ -37,7 +37,13 @@ ABOUT_RUNS = {
     "tab-unevolved-coefficients",
 }
 ABOUT_RECORDED_RUNS = {"tab-archives", "tab-kinds", "tab-mutualism", "tab-selects", "tab-settings"}
-ABOUT_SCENES = {"tab-archives-watch", "tab-contest-watch", "tab-kinds-watch", "tab-mutualism-watch", "tab-selects-watch"}
+ABOUT_SCENES = {
+    "tab-archives-watch",
+    "tab-contest-watch",
+    "tab-kinds-watch",
+    "tab-mutualism-watch",
+    "tab-selects-watch",
+}
 ABOUT_ROBOTS = {"tab-known", "tab-mazes", "tab-mean-controller"}
 ABOUT_NEITHER = {
     "tab-archives-answers",

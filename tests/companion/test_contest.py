@@ -4,8 +4,9 @@ from dataclasses import replace
 import pandas as pd
 import pytest
 
+import safe
 from safe import Algorithm, Experiment, Parameters, load_maze
-from safe.companion import contest, standings
+from safe.companion import contest, findings, ledger, standings
 from safe.companion.contest import Contrast
 from safe.companion.designs import DECIDING, EXPLORING, MUTATION_ALONE, VARIATION
 from safe.results.mixed import mixed_model
@@ -125,3 +126,51 @@ def test_holm_counts_all_contrasts_and_each_question_has_its_level():
     assert table.p_holm.tolist() == pytest.approx((2 * table.p_value).tolist())
     assert 0.01 < table.p_holm[0] < 0.05
     assert table.answer.tolist() == ["undecided", "confirmed"]
+
+
+def test_answers_become_rows_of_the_ledger():
+    counts = counted(one=[9, 10, 8, 9, 10, 9, 8, 9], other=[1, 2, 0, 1, 2, 1, 0, 9])
+    seen = counted(one=[5, 10], other=[1, 1])
+    answers = standings.answers([PAIR, replace(PAIR, question="many judges", first="other", second="one")], counts)
+    first, second = standings.as_findings(answers, seen, seed=7).to_dict("records")
+    assert first["here"] == "90 % against 20 %"
+    assert first["explored"] == "75 % against 10 %"
+    assert first["evidence"] == "8 mazes, 10 runs on each, seed 7"
+    assert first["statement"] == "one succeeds more often than other (mutation alone)"
+    assert (first["verdict"], second["verdict"]) == (answers.answer[0], "not confirmed")
+    assert first["p_adjusted"] == answers.p_holm[0]
+    (unseen,) = standings.as_findings(answers[:1], counted(one=[1]), seed=7).explored
+    assert unseen == "–"
+
+
+def test_the_rows_have_the_columns_of_other_findings():
+    answers = standings.answers([PAIR], counted(one=[9, 8], other=[1, 2]))
+    rows = standings.as_findings(answers, counted(one=[1]), seed=7)
+    assert [*rows.columns] == [*ledger.recorded(findings.RECORD).columns]
+
+
+def test_what_was_tried_stands_family_by_family_the_best_in_front():
+    names = ["MAP-Elites", "random search", "weighing, favourites"]
+    rows = {
+        (name, operators, f"maze {number}"): {"successes": successes, "runs": 10, "evaluations": 1}
+        for place, name in enumerate([*names, "a peer"])
+        for operators in VARIATION
+        for number, successes in enumerate([place, 2 * place])
+    }
+    counts = pd.DataFrame.from_dict(rows, orient="index").rename_axis(["contestant", "operators", "maze"])
+    table = standings.readable_tried(counts, counts)
+    assert table.index.tolist() == [
+        ("baselines", "random search"),
+        ("baselines", "MAP-Elites"),
+        ("weighing", "weighing, favourites"),
+        ("peers", "a peer"),
+    ]
+    row = table.loc["peers", "a peer"]
+    assert row["mutation alone"].startswith("45 (")
+    assert (row["maze 0"], row["maze 1"]) == ("3, 3", "6, 6")
+
+
+def test_the_name_of_the_best_is_that_contestant():
+    by_name = {one.name: one for one in contest.contestants()}
+    best = Algorithm("any", **by_name[contest.CHALLENGERS[0]].fields)
+    assert best.content == safe.ALGORITHMS["weighing-and-goals"].content

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from ribs.archives import GridArchive
 
 import safe
-from safe.companion import peers
+from safe.companion import contest, peers
 from tests.helpers import oracle
 
 DRAWING = "S....#..\n.##..#..\n...#...G\n.#...#..\n.#.#...."
@@ -175,3 +175,23 @@ def test_the_repertoire_is_pyribs_grid_of_the_latest(seed):
         genomes_before = np.array([held[tuple(cell)] for cell in ends.tolist()])
         np.testing.assert_array_equal(genomes, genomes_before)
     assert 40 < len(grid) < 600, "many cells, and many elites that were replaced"
+
+
+def test_the_record_holds_what_was_tried_and_what_it_makes():
+    assert peers.verify(sample=3, seed=5) == 3
+    counts = peers.counts()
+    assert counts.runs.sum() == len(list(peers.all_tried()))
+    assert set(counts.loc[("NSGA-II, copies equal", "mutation alone")].index) > set(contest.KNOWN)
+    assert (counts.evaluations <= counts.runs * safe.Parameters().evaluations).all()
+
+
+def test_another_record_is_refused(tmp_path, monkeypatch):
+    lines = peers.RECORD.read_text().splitlines()
+    monkeypatch.setattr(peers, "RECORD", tmp_path / "nsga2.csv")
+    peers.RECORD.write_text("\n".join(lines[:-1]))
+    with pytest.raises(ValueError, match="record must hold the runs that were designed; got others in"):
+        peers.verify()
+    altered = [f"{line},7" if place else line for place, line in enumerate(line.rsplit(",", 1)[0] for line in lines)]
+    peers.RECORD.write_text("\n".join([lines[0], *altered[1:]]))
+    with pytest.raises(ValueError, match="record must hold what its runs make; got 'design"):
+        peers.verify(sample=2, seed=1)

@@ -5,7 +5,7 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 import pytest
 
-from safe.companion import project, speed
+from safe.companion import contest, project, speed
 
 mpl.use("agg")
 MEASUREMENTS = Path(__file__).parents[2] / project.MEASUREMENTS
@@ -57,6 +57,13 @@ def test_every_experiment_of_the_paper_has_its_cost(measured):
     assert len(table) == 10
     assert table.notna().all().all()
     assert (table.runs == 500).all()
+
+
+def test_contestants_are_compared_with_the_first_of_them(measured):
+    table = speed.contest_table(measured)
+    assert table.index.tolist() == [name for name, _ in contest.LOOKED_INTO]
+    assert table.ratio.iloc[0] == 1
+    assert table.ratio.iloc[1] == pytest.approx(table.microseconds.iloc[1] / table.microseconds.iloc[0])
 
 
 def test_growth(measured):
