@@ -108,7 +108,7 @@ def format():
 
 
 def picture():
-    """draw the picture of the README"""
+    """draw the pictures that no notebook makes"""
     env()
     _run("python", "book/picture.py")
 

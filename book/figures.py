@@ -1,22 +1,77 @@
-"""Figures whose parts lead to the playground.
+"""Figures of notebooks on the pages of chapters, and figures whose parts lead to the playground.
 
-A notebook shows such a figure by `safe.companion.notebook.show_figure`, and the links travel beside its image, as
+A chapter shows a figure of a notebook where its argument needs it, with a caption and a name of its own::
+
+    ```{shown} fig-mazes
+    :name: fig-first-mazes
+
+    The mazes of the paper.
+    ```
+
+A figure that a notebook shows by `safe.companion.notebook.show_figure` has links, which travel beside its image as
 metadata of the output. On the page each is an area over its part of the image. Print has the image alone.
 """
 
 from __future__ import annotations
 
+import base64
 import html
 import json
+from typing import ClassVar
 
 from docutils import nodes
+from docutils.parsers.rst import directives
 from sphinx.application import Sphinx
+from sphinx.errors import ExtensionError
 from sphinx.transforms import SphinxTransform
 from sphinx.transforms.post_transforms import SphinxPostTransform
+from sphinx.util.docutils import SphinxDirective
 from sphinx.util.typing import ExtensionMetadata
 
-from executed import EXECUTED
+from executed import EXECUTED, ROOT
 from playground import PAGE as PLAYGROUND
+
+IMAGES = EXECUTED / "figures"
+KINDS = {"image/svg+xml": "svg", "application/pdf": "pdf"}  # for pages, and for print
+
+
+class Shown(SphinxDirective):
+    """A figure of a notebook, by its name there."""
+
+    required_arguments = 1
+    option_spec: ClassVar = {"name": directives.unchanged_required}
+    has_content = True
+
+    def run(self) -> list[nodes.Node]:
+        name = self.arguments[0]
+        for copy in sorted(EXECUTED.glob("*.ipynb")):
+            for cell in json.loads(copy.read_text(encoding="utf-8"))["cells"]:
+                settings = cell["metadata"].get("mystnb", {})
+                if settings.get("figure", {}).get("name") == name:
+                    self.env.note_dependency(str(copy))
+                    return [self._figure(name, cell, settings.get("image", {}))]
+        raise ExtensionError(f"shown must name a figure of a notebook; got {name!r}")
+
+    def _figure(self, name: str, cell: dict, settings: dict) -> nodes.figure:
+        IMAGES.mkdir(exist_ok=True)
+        for output in cell["outputs"]:
+            for kind, suffix in KINDS.items():
+                if kind in output.get("data", {}):
+                    content = "".join(output["data"][kind])
+                    (IMAGES / f"{name}.{suffix}").write_bytes(
+                        base64.b64decode(content) if suffix == "pdf" else content.encode()
+                    )
+        image = nodes.image(uri=f"/{IMAGES.relative_to(ROOT).as_posix()}/{name}.*", alt=settings.get("alt", ""))
+        image["classes"] = settings.get("classes", "").split()
+        caption = nodes.caption()
+        self.state.nested_parse(self.content, self.content_offset, caption)
+        (paragraph,) = caption.children
+        caption.children = []
+        caption.extend(paragraph.children)
+        figure = nodes.figure("", image, caption, classes=["shown"])
+        self.set_source_info(figure)
+        self.add_name(figure)
+        return [figure]
 
 
 class FigureLinks(SphinxTransform):
@@ -57,6 +112,7 @@ class LinkedFigures(SphinxPostTransform):
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:
+    app.add_directive("shown", Shown)
     app.add_transform(FigureLinks)
     app.add_post_transform(LinkedFigures)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

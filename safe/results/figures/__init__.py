@@ -9,13 +9,22 @@ from safe.results.figures.grids import plot_interactions, plot_levels, plot_main
 from safe.results.figures.mazes import (
     draw_maze,
     draw_path,
+    plot_crowd,
+    plot_landscape,
     plot_mazes,
     plot_neighbours,
     plot_paths,
     plot_sensors,
     plot_sheet,
 )
-from safe.results.figures.runs import animate, plot_generation, plot_judging, plot_progress
+from safe.results.figures.runs import (
+    animate,
+    plot_components,
+    plot_generation,
+    plot_judging,
+    plot_objectives,
+    plot_progress,
+)
 from safe.results.figures.samples import plot_coefficients, plot_success, plot_success_curves, plot_weights
 from safe.results.figures.style import STYLE, use_style
 
@@ -25,15 +34,19 @@ __all__ = [
     "draw_maze",
     "draw_path",
     "plot_coefficients",
+    "plot_components",
+    "plot_crowd",
     "plot_generation",
     "plot_interactions",
     "plot_judging",
     "plot_ladder",
+    "plot_landscape",
     "plot_levels",
     "plot_main_effects",
     "plot_mazes",
     "plot_mean_curves",
     "plot_neighbours",
+    "plot_objectives",
     "plot_pairs",
     "plot_paths",
     "plot_progress",

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
-from safe.maze import Maze
+from safe.maze import Maze, ways_to_goal
 from safe.results.figures.style import FAINT, GOAL, PATH, START, WALL, legend_below, plain
 from safe.results.labels import maze_labels
 
@@ -60,6 +60,49 @@ def draw_path(axes: Axes, path: np.ndarray) -> None:
 def plot_mazes(mazes: Sequence[Maze]) -> tuple[Figure, np.ndarray]:
     """The mazes side by side, in axes of shape (1, number of mazes)."""
     return plot_paths([[(maze, None, label) for maze, label in zip(mazes, maze_labels(mazes), strict=True)]])
+
+
+def plot_landscape(maze: Maze) -> tuple[Figure, np.ndarray]:
+    """What closeness rewards beside what is needed: cells to the goal through walls, and steps on the shortest way."""
+    rows, columns = np.indices(maze.shape)
+    apart = np.abs(rows - maze.goal[0]) + np.abs(columns - maze.goal[1])
+    ways = ways_to_goal(maze)
+    figure, grid = plt.subplots(1, 2, figsize=(8.4, 4.8))
+    for axes, values, title in (
+        (grid[0], apart, "distance to the goal, cells"),
+        (grid[1], ways, "steps to walk to the goal"),
+    ):
+        draw_maze(axes, maze)
+        shown = axes.imshow(np.ma.masked_where(ways < 0, values), cmap="cividis_r", zorder=1)
+        axes.set_title(title)
+        figure.colorbar(shown, ax=axes, orientation="horizontal", shrink=0.8)
+    legend_below(figure)
+    return figure, grid
+
+
+def plot_crowd(
+    maze: Maze, points: np.ndarray, nearest: Sequence[tuple[tuple[int, int], np.ndarray, str]]
+) -> tuple[Figure, Axes]:
+    """End points over the maze, and lines from some of them to their nearest neighbours.
+
+    Parameters
+    ----------
+    maze : Maze
+    points : array of int, shape (n, 2)
+        All that may be neighbours.
+    nearest : sequence of (point, array of shape (k, 2), label)
+        A point, its neighbours, and what is written about it.
+    """
+    figure, axes = plt.subplots(figsize=(5.6, 5.8))
+    draw_maze(axes, maze)
+    axes.plot(points[:, 1], points[:, 0], ".", color=FAINT, markersize=4, label="end points and archive", zorder=2)
+    for number, (point, neighbours, label) in enumerate(nearest):
+        for neighbour in neighbours:
+            axes.plot([point[1], neighbour[1]], [point[0], neighbour[0]], color=f"C{number}", linewidth=0.8, zorder=3)
+        style = {"color": f"C{number}", "markersize": 8, "linestyle": "none", "zorder": 5}
+        axes.plot(point[1], point[0], "D", markeredgecolor="white", label=plain(label), **style)
+    legend_below(figure)
+    return figure, axes
 
 
 def plot_sheet(mazes: Sequence[Maze], columns: int = 10) -> tuple[Figure, Axes]:

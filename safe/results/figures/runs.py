@@ -20,7 +20,7 @@ from matplotlib.patches import Rectangle
 from safe.evolution import Generation
 from safe.maze import Maze
 from safe.results.figures.mazes import draw_maze
-from safe.results.figures.style import FAINT, GOAL, PATH, WALL, plain
+from safe.results.figures.style import FAINT, GOAL, PATH, WALL, legend_below, plain
 
 TINTS = {"solutions": "#CFE5F2", "objectives": "#F9DEC8", "plain": "#F0F0F0", "won": "#BFE3D5"}
 
@@ -109,6 +109,35 @@ def plot_progress(story: Sequence[Generation]) -> tuple[Figure, np.ndarray]:
         novelty.legend()
     grid[-1, 0].set_xlabel("generation")
     return figure, grid[:, 0]
+
+
+def plot_components(story: Sequence[Generation]) -> tuple[Figure, Axes]:
+    """How large closeness and novelty are over a run, on a logarithmic scale: the largest and the mean value."""
+    figure, axes = plt.subplots(figsize=(7, 3.6))
+    numbers = [generation.generation for generation in story]
+    for row, (name, colour) in enumerate((("1/distance", GOAL), ("novelty, cells", PATH))):
+        values = np.array([generation.components[row] for generation in story])
+        axes.plot(numbers, values.max(axis=1), color=colour, label=f"{name}: largest")
+        axes.plot(numbers, values.mean(axis=1), color=colour, linestyle="--", linewidth=1.2, label=f"{name}: mean")
+    axes.set(xlabel="generation", ylabel="component", yscale="log")
+    axes.yaxis.set_major_formatter("{x:g}")
+    legend_below(figure)
+    return figure, axes
+
+
+def plot_objectives(story: Sequence[Generation]) -> tuple[Figure, np.ndarray]:
+    """The objective functions of some generations, a panel for each; those behind a solution's fitness stand out."""
+    figure, grid = plt.subplots(1, len(story), figsize=(2.9 * len(story), 3.6), squeeze=False, sharey=True)
+    for axes, generation in zip(grid[0], story, strict=True):
+        won = np.bincount(generation.winners, minlength=len(generation.objectives))
+        a, b = generation.objectives.T
+        axes.plot(a[won == 0], b[won == 0], ".", color=FAINT, markersize=4, label="decides nowhere")
+        axes.plot(a[won > 0], b[won > 0], "o", color=GOAL, markersize=8, label="gives some solution its fitness")
+        axes.set(title=f"generation {generation.generation}", xlabel="$a$ (closeness)", aspect="equal")
+        axes.set(xlim=(-0.04, 1.04), ylim=(-0.04, 1.04), xticks=[0, 0.5, 1], yticks=[0, 0.5, 1])
+    grid[0, 0].set_ylabel("$b$ (novelty)")
+    legend_below(figure)
+    return figure, grid[0]
 
 
 def plot_generation(maze: Maze, generation: Generation) -> tuple[Figure, np.ndarray]:
