@@ -13,8 +13,10 @@ import pytest
 import safe
 from safe.companion.paper import reported
 from safe.experiments.experiment import WEIGHT_COLUMNS
+from safe.maze import ways_to_goal
 from safe.results import figures, tables
 from safe.results.statistics import success_interval
+from tests.helpers import oracle
 from tests.helpers.results import runs
 
 mpl.use("agg")
@@ -148,6 +150,38 @@ def test_names_are_not_read_as_mathematics_or_markup(name):
     for figure, _ in (drawn[3], *drawn[7:10], drawn[11]):
         assert len(legend(figure)) == 1
     assert "<script>alert" not in figures.animate(maze, story_of_it)
+
+
+def test_the_landscape_shows_distances_and_ways_of_open_cells():
+    _, grid = figures.plot_landscape(MAZE)
+    apart, ways = (axes.get_images()[1].get_array() for axes in grid)
+    for shown in (apart, ways):
+        assert (shown.mask == MAZE.walls).all()
+    for cell in map(tuple, np.argwhere(~MAZE.walls)):
+        assert apart[cell] == oracle.taxicab(cell, MAZE.goal)
+        assert ways[cell] == ways_to_goal(MAZE)[cell]
+
+
+def test_the_crowd_has_a_line_from_each_point_to_its_neighbours():
+    points = np.array([[0, 0], [0, 1], [2, 2]])
+    _, axes = figures.plot_crowd(MAZE, points, [((0, 0), points[1:], "one $1")])
+    lines = [line.get_xydata().tolist() for line in axes.get_lines() if len(line.get_xdata()) == 2]
+    assert lines == [[[0, 0], [1, 0]], [[0, 0], [2, 2]]]
+    assert r"one \$1" in [line.get_label() for line in axes.get_lines()]
+
+
+def test_components_and_objective_functions_of_a_run():
+    story = list(safe.generations(MAZE, "safe", 1, safe.Parameters(generations=3, population=6, objectives=8)))
+    _, axes = figures.plot_components(story)
+    largest, mean, *_ = (line.get_ydata() for line in axes.get_lines())
+    assert largest.tolist() == [generation.components[0].max() for generation in story]
+    assert mean == pytest.approx([generation.components[0].mean() for generation in story])
+    _, grid = figures.plot_objectives(story)
+    for panel, generation in zip(grid, story, strict=True):
+        others, deciding = (line.get_xydata() for line in panel.get_lines())
+        assert {*map(tuple, deciding)} == {tuple(generation.objectives[winner]) for winner in generation.winners}
+        assert len(others) + len(deciding) == 8
+        assert panel.get_title() == f"generation {generation.generation}"
 
 
 def test_rates_of_success_with_the_papers():
