@@ -135,12 +135,16 @@ def runs(
         numbers = {e: n for e, n in _numbers(wanted, record).items() if record.experiments[n].runs >= e.runs}
         if not numbers:
             continue
-        tables = dict(iter(_table(collection, RUNS, record).groupby("experiment")))
+        table = _table(collection, RUNS, record)
+        table.insert(0, "run", table.groupby("experiment").cumcount())
+        number_of = table.pop("experiment").to_numpy()
         for experiment, number in numbers.items():
-            recorded = tables[number].head(experiment.runs).reset_index(drop=True).rename_axis("run").reset_index()
+            begin = np.searchsorted(number_of, number)
+            recorded = table[begin : begin + experiment.runs].reset_index(drop=True)
             recorded["evaluations"] = (recorded.generation + 1) * experiment.parameters.population
-            # random search has no coefficients
-            found[experiment] = recorded.drop(columns="experiment").dropna(axis="columns", how="all")
+            if experiment.algorithm.objectives == ():  # nobody judges, so there are no coefficients
+                recorded = recorded.drop(columns=[*collection.coefficients])
+            found[experiment] = recorded
     if resources is not None:
         found |= {experiment: run(experiment, **resources) for experiment in wanted if experiment not in found}
     return {experiment: found[experiment] for experiment in wanted if experiment in found}

@@ -148,6 +148,7 @@ def as_findings(answers: pd.DataFrame, seen: Counts, seed: int) -> pd.DataFrame:
     seed : int
         Of the runs that decide.
     """
+    seen = seen.sort_index()
     before = seen.index.droplevel("maze").unique()
     rows = []
     for row in answers.itertuples():

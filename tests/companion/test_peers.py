@@ -181,7 +181,8 @@ def test_the_record_holds_what_was_tried_and_what_it_makes():
     assert peers.verify(sample=3, seed=5) == 3
     counts = peers.counts()
     assert counts.runs.sum() == len(list(peers.all_tried()))
-    assert set(counts.loc[("NSGA-II, copies equal", "mutation alone")].index) > set(contest.KNOWN)
+    one = counts.xs(("NSGA-II, copies equal", "mutation alone"), level=("contestant", "operators"))
+    assert set(one.index) > set(contest.KNOWN)
     assert (counts.evaluations <= counts.runs * safe.Parameters().evaluations).all()
 
 
@@ -193,5 +194,5 @@ def test_another_record_is_refused(tmp_path, monkeypatch):
         peers.verify()
     altered = [f"{line},7" if place else line for place, line in enumerate(line.rsplit(",", 1)[0] for line in lines)]
     peers.RECORD.write_text("\n".join([lines[0], *altered[1:]]))
-    with pytest.raises(ValueError, match="record must hold what its runs make; got 'design"):
+    with pytest.raises(ValueError, match="record must hold what its runs make; got '.*,7' instead of"):
         peers.verify(sample=2, seed=1)
