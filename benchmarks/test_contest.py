@@ -17,7 +17,7 @@ def test_contestant(measure, sized, contestant, operators):
     found = measure(
         "contest",
         safe.evolve,
-        lambda: (experiment.maze, experiment.algorithm, experiment.seed_sequence(0), parameters),
+        lambda: (experiment.maze, experiment.algorithm, experiment.seed_sequence(1), parameters),
         contestant=contestant,
         generations=parameters.generations,
     )
