@@ -15,8 +15,10 @@ from pathlib import Path
 
 IS_WINDOWS = os.name == "nt"
 ENVIRONMENT = Path(".venv")
+PIP = ("python", "-m", "pip", "install", "--quiet", "--quiet", "--disable-pip-version-check")
 FIXED = ("--constraint", "constraints.txt")
 BUILD = ("python", "book/build.py")
+UNCHANGED = ("python", "book/unchanged.py")
 COMPILE = ("python", "-c", "from safe.evolution import compile_kernels; compile_kernels()")
 BOUNDS_CHECKED = {"NUMBA_BOUNDSCHECK": "1", "NUMBA_CACHE_DIR": ".numba-boundscheck"}
 ATHERIS = ("python", "-m", "tests.helpers.fuzz_atheris")
@@ -38,8 +40,11 @@ def execute():
 
 def book():
     """everything from nothing: environment, every notebook, the book (RUNS=20 for a class)"""
-    execute()
-    _run(*BUILD)
+    env()
+    if _end(_start(*UNCHANGED)):
+        execute()
+        _run(*BUILD)
+        _run(*UNCHANGED, "--made")
     print("The book: _build/html/index.html", flush=True)
 
 
@@ -116,7 +121,8 @@ def picture():
 def constraints():
     """choose the newest versions of all packages (constraints.txt)"""
     env()
-    _run("python", "-m", "pip", "install", "--quiet", "uv")
+    if not Path(_program("uv")).exists():
+        _run(*PIP, "uv")
     options = "--universal --python-version 3.11 --all-extras --upgrade --no-annotate --output-file constraints.txt"
     _run("uv", "pip", "compile", *options.split(), "--custom-compile-command", "make constraints", "pyproject.toml")
 
@@ -146,11 +152,12 @@ def _create():
         found = ".".join(map(str, sys.version_info[:3]))
         another = "py -3.12 make.py ..." if IS_WINDOWS else "make PYTHON=python3.12 ..."
         sys.exit("Python 3.11 or later is needed; this is %s. Use another: %s" % (found, another))  # noqa: UP031
-    _check(_end(subprocess.Popen([sys.executable, "-m", "venv", str(ENVIRONMENT)])))
-    pip = ("python", "-m", "pip", "install", "--quiet", "--quiet")
+    has_uv = Path(_program("uv")).exists()
+    bare = ["--without-pip"] if has_uv else []  # to add pip takes longer than uv to install everything
+    _check(_end(subprocess.Popen([sys.executable, "-m", "venv", *bare, str(ENVIRONMENT)])))
     # without uv the newest pip, since older ones take minutes to resolve what constraints.txt has fixed
-    if _end(_start(*pip, "--disable-pip-version-check", "--only-binary", ":all:", "uv")):
-        _run(*pip, "--upgrade", "pip")
+    if not has_uv and _end(_start(*PIP, "--only-binary", ":all:", "uv")):
+        _run(*PIP, "--upgrade", "pip")
     (ENVIRONMENT / "created").touch()
 
 
@@ -168,7 +175,10 @@ def _install(mark, *what):
         return
     uv = ("uv", "pip", "install", "--quiet", "--python", _program("python"))
     if not Path(_program("uv")).exists() or _end(_start(*uv, *FIXED, *what)):
-        _run("python", "-m", "pip", "install", "--quiet", "--quiet", "--disable-pip-version-check", *FIXED, *what)
+        if not Path(_program("pip")).exists():
+            _run("python", "-m", "ensurepip", "--default-pip")
+            _run(*PIP, "--upgrade", "pip")
+        _run(*PIP, *FIXED, *what)
     installed.write_text(asked.hexdigest(), encoding="utf-8")
 
 
@@ -176,6 +186,9 @@ def _install(mark, *what):
 
 
 def _program(name):
+    """The file of a program of the environment, or of uv, which may be installed outside it."""
+    if name == "uv" and (found := shutil.which(name)):
+        return found
     return str(ENVIRONMENT / "Scripts" / (name + ".exe") if IS_WINDOWS else ENVIRONMENT / "bin" / name)
 
 

@@ -1,8 +1,12 @@
 """How the cost grows with the sizes that a user can set: populations, archives, paths, mazes, k, experiments.
 
-`kernel` names what is timed, as in the group "part", or a function of the package.
+`kernel` names what is timed, as in the group "part", or a function of the package. The group "stored runs" is about
+stores of up to a million runs: `bytes` is the size of one, `memory` how much more memory its tables took at most, over
+the memory of the tables.
 """
 
+import subprocess
+import sys
 from functools import cache
 
 import numpy as np
@@ -10,7 +14,24 @@ import pytest
 
 import safe
 from benchmarks.workloads import SEED, workload
-from safe import Experiment, Maze, Parameters
+from safe import Experiment, Maze, Parameters, Run
+from safe.experiments.provenance import origin
+from safe.experiments.store import Store
+
+TINY = Parameters(population=10, objectives=10, generations=2, archive=10)
+EXPERIMENTS = 10  # that share a store
+SAMPLE = 10
+MEMORY = """
+import resource, sys
+import safe
+from benchmarks.test_growth import experiments_of
+path, size = sys.argv[1], int(sys.argv[2])
+peak = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+safe.run(experiments_of(EXPERIMENTS)[0], path, progress=False)
+before = peak()
+tables = [safe.run(experiment, path, progress=False) for experiment in experiments_of(size)]
+print((peak() - before) / sum(table.memory_usage().sum() for table in tables))
+""".replace("EXPERIMENTS", str(EXPERIMENTS))
 
 
 @cache
@@ -89,8 +110,59 @@ def test_maze(measure_part, sized, part, walls, size):
 @pytest.mark.parametrize("size", [10, 100, 1000, 10_000, 100_000])
 def test_runs(measure, sized, size):
     """Runs so short that the time is that of their surroundings: seeds, threads, store, table."""
-    tiny = Parameters(population=10, objectives=10, generations=2, archive=10)
-    experiment = Experiment("safe", "maze1", sized(size, check=10), parameters=tiny)
-    safe.evolve("maze1", "safe", seed=0, parameters=tiny)  # compiles
+    experiment = Experiment("safe", "maze1", sized(size, check=10), parameters=TINY)
+    safe.evolve("maze1", "safe", seed=0, parameters=TINY)  # compiles
     arguments = experiment, None, None, False
     measure("growth", safe.run, lambda: arguments, once=True, what="runs", size=size, kernel="safe.run", generations=2)
+
+
+def experiments_of(size):
+    """Experiments that together have so many runs."""
+    return [Experiment("safe", "maze1", size // EXPERIMENTS, seed, TINY) for seed in range(EXPERIMENTS)]
+
+
+@pytest.fixture(scope="module")
+def stored(tmp_path_factory):
+    """Makes stores of so many runs, all made up but those that `safe.verify` draws with the seed SEED."""
+
+    @cache
+    def stored(size):
+        rng, path = np.random.default_rng(SEED), tmp_path_factory.mktemp("stored") / "s.sqlite"
+        drawn = set(np.random.default_rng(SEED).choice(size, min(SAMPLE, size), replace=False).tolist())
+        with Store.for_writing(path) as store:
+            for place, experiment in enumerate(experiments_of(size)):
+                entry, runs = store.entry(experiment.content, "safe", "maze1"), []
+                for number in range(experiment.runs):
+                    if place * experiment.runs + number in drawn:
+                        run = safe.evolve("maze1", "safe", experiment.seed_sequence(number), TINY)
+                    else:
+                        run = Run(
+                            False, 1, 25, tuple(rng.uniform(-1, 1, 16).tolist()), tuple(rng.random(2).tolist()), 20
+                        )
+                    runs.append((number, run, rng.random()))
+                store.add(entry, origin(), runs)
+        return path
+
+    return stored
+
+
+@pytest.mark.parametrize("what", ["table", "tables", "verify"])
+@pytest.mark.parametrize("size", [1000, 10_000, 100_000, 1_000_000])
+def test_stored_runs(measure, sized, stored, size, what):
+    """One experiment's table, those of all ten, and a verified sample."""
+    runs = sized(size, check=100)
+    path, experiments = stored(runs), experiments_of(runs)
+
+    def tables(number):
+        return [safe.run(experiment, path, None, False) for experiment in experiments[:number]]
+
+    function, arguments = {
+        "table": (tables, (1,)),
+        "tables": (tables, (EXPERIMENTS,)),
+        "verify": (safe.verify, (path, SAMPLE, SEED, False)),
+    }[what]
+    about = {"bytes": path.stat().st_size}
+    if what == "tables" and sys.platform != "win32":
+        command = [sys.executable, "-c", MEMORY, path, str(runs)]
+        about["memory"] = float(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    measure("stored runs", function, lambda: arguments, once=size > 10_000, what=what, size=size, **about)

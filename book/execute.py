@@ -1,4 +1,4 @@
-"""Execute the book's notebooks whose executed copies are missing or stale.
+"""Execute the book's notebooks whose executed copies are missing or stale, side by side.
 
     python book/execute.py                                  with the parameters of the book
     python book/execute.py table2-success -p runs 100       one notebook, with your own parameters
@@ -16,6 +16,7 @@ import os
 import platform
 import sys
 import time
+from multiprocessing.pool import ThreadPool
 from pathlib import Path
 
 import nbformat
@@ -27,8 +28,10 @@ from forked import fork_jupyters_kernels
 from isolated import isolated
 from safe.companion import evidence
 from safe.companion.project import STORE
+from safe.experiments.cores import available_cores
 
 SAMPLE = 5  # runs in it that are repeated at the end
+FIRST = "ledger"  # makes all runs that several notebooks show
 MUST_SHOW = {  # by a key in the metadata of a cell: what it stands for, and the output that shows it
     "table": ("table", "text/csv"),
     "mystnb": ("figure", "image/svg+xml"),
@@ -40,17 +43,14 @@ def execute(notebook: Path, parameters: dict[str, object]) -> None:
     declared = papermill.inspect_notebook(notebook)
     own = {name: value for name, value in parameters.items() if name in declared}
     departures = {name: value for name, value in own.items() if repr(value) != declared[name]["default"]}
-    EXECUTED.mkdir(exist_ok=True)
+    made_from = stamp(notebook, own)  # what changes from now on makes the copy stale
     unfinished = unfinished_copy(notebook)
-    watched = sys.stderr.isatty()
-    os.environ["TQDM_DISABLE"] = "" if watched else "1"  # the kernel inherits it: bars are for people
     papermill.execute_notebook(
         notebook,
         unfinished,
         departures,  # papermill then adds no cell that only repeats the notebook's own values
-        cwd=ROOT,
         progress_bar=False,
-        stderr_file=sys.stderr if watched else None,
+        stderr_file=sys.stderr if sys.stderr.isatty() else None,
         store_widget_state=False,  # it would hold all of the playground's scripts
         extra_arguments=["--log-level=CRITICAL"],  # of the kernel: it warns of TCP, and of being shut down
     )
@@ -59,9 +59,24 @@ def execute(notebook: Path, parameters: dict[str, object]) -> None:
     for cell in executed.cells:
         if cell.cell_type == "code":
             cell.outputs = [output for output in cell.outputs if not is_progress_bar(output)]
-    executed.metadata[STAMP] = stamp(notebook, own)
+    executed.metadata[STAMP] = made_from
     nbformat.write(executed, unfinished)
     unfinished.replace(EXECUTED / notebook.name)
+
+
+def complaint_of(notebook: Path, parameters: dict[str, object]) -> str | None:
+    """Execute a notebook; gives what goes wrong."""
+    try:
+        execute(notebook, parameters)
+    except papermill.PapermillExecutionError as error:
+        complaint = f"{error.ename}: {error.evalue}"
+    except ValueError as error:
+        complaint = str(error)
+    except Exception as error:  # none may be lost in its thread
+        complaint = f"{type(error).__name__}: {error}"
+    else:
+        return None
+    return f"{complaint} (in full in {unfinished_copy(notebook)})"
 
 
 def unfinished_copy(notebook: Path) -> Path:
@@ -133,22 +148,36 @@ def main() -> None:
 
 
 def _execute_all(chosen: list[Path], parameters: dict[str, object], always: bool) -> None:
-    """Execute these notebooks, those that are up to date only if they are `always` executed."""
+    """Execute these notebooks, those that are up to date only if they are `always` executed.
+
+    No two make the same runs: most of those that keep runs wait for the one that makes what they share, while others
+    are executed. Large notebooks come before small ones, so that all cores have work until the end.
+    """
     print(f"Python {platform.python_version()} in {sys.prefix}", flush=True)
-    for number, notebook in enumerate(chosen, start=1):
-        label = f"[{number}/{len(chosen)}] {notebook.stem}"
-        if not always and what_is_wrong(notebook, parameters) is None:
-            print(f"{label}: up to date", flush=True)
-            continue
-        print(f"{label}: executing", flush=True)
+    labels = {notebook: f"[{number}/{len(chosen)}] {notebook.stem}" for number, notebook in enumerate(chosen, start=1)}
+    stale = [notebook for notebook in chosen if always or what_is_wrong(notebook, parameters)]
+    for notebook in chosen:
+        if notebook not in stale:
+            print(f"{labels[notebook]}: up to date", flush=True)
+    if not stale:
+        return
+
+    def timed(notebook: Path) -> tuple[Path, float, str | None]:
         started = time.perf_counter()
-        try:
-            execute(notebook, parameters)
-        except papermill.PapermillExecutionError as error:
-            sys.exit(f"{label}: {error.ename}: {error.evalue} (in full in {unfinished_copy(notebook)})")
-        except ValueError as error:
-            sys.exit(f"{label}: {error} (in full in {unfinished_copy(notebook)})")
-        print(f"{label}: {time.perf_counter() - started:.1f} s", flush=True)
+        complaint = complaint_of(notebook, parameters)
+        return notebook, time.perf_counter() - started, complaint
+
+    EXECUTED.mkdir(exist_ok=True)
+    os.environ["TQDM_DISABLE"] = "" if sys.stderr.isatty() else "1"  # kernels inherit it: bars are for people
+    stale.sort(key=lambda notebook: (notebook.stem == FIRST, notebook.stat().st_size), reverse=True)
+    waits = {notebook: notebook.stem != FIRST and "store" in papermill.inspect_notebook(notebook) for notebook in stale}
+    # threads of such a pool end with this program, and so do kernels: nothing outlives a failure or an interruption
+    with contextlib.chdir(ROOT), ThreadPool(available_cores()) as pool:
+        for group in (False, True):
+            for notebook, seconds, complaint in pool.imap_unordered(timed, [n for n in stale if waits[n] == group]):
+                if complaint is not None:
+                    sys.exit(f"{labels[notebook]}: {complaint}")
+                print(f"{labels[notebook]}: {seconds:.1f} s", flush=True)
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 from importlib.metadata import EntryPoint
 from pathlib import Path
 
@@ -23,6 +24,7 @@ from jupyter_client.provisioning import KernelProvisionerFactory, LocalProvision
 from isolated import ROOT
 
 IMPORTED = ("ipykernel.kernelapp", "safe.companion.ledger", "safe.companion.notebook", "safe.playground.widget")
+_ordering = threading.Lock()  # notebooks are executed side by side
 BACKEND = "module://matplotlib_inline.backend_inline"  # a kernel would name it before matplotlib is imported
 
 
@@ -81,19 +83,21 @@ def _server() -> subprocess.Popen:
     """The process to fork, which ends with this one, as its standard input does."""
     from safe.evolution import compile_kernels
 
-    compile_kernels()  # where people see how far it is, and before it would start threads in the process to fork
-    return subprocess.Popen(
+    server = subprocess.Popen(
         [sys.executable, __file__], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8"
     )
+    compile_kernels()  # where people see how far it is; meanwhile the server imports
+    return server
 
 
 def _ask(order: dict[str, object]) -> int:
     """Have a kernel started; gives the number of its process."""
-    server = _server()
-    with contextlib.suppress(BrokenPipeError):
-        server.stdin.write(json.dumps(order) + "\n")
-        server.stdin.flush()
-    answer = server.stdout.readline()
+    with _ordering:
+        server = _server()
+        with contextlib.suppress(BrokenPipeError):
+            server.stdin.write(json.dumps(order) + "\n")
+            server.stdin.flush()
+        answer = server.stdout.readline()
     if not answer:
         raise RuntimeError("the process that is forked for kernels has ended")
     return int(answer)
@@ -107,8 +111,9 @@ def serve() -> None:
     os.environ["MPLBACKEND"] = BACKEND
     for name in IMPORTED:
         importlib.import_module(name)
-    importlib.import_module("safe.evolution").compile_kernels()  # which loads them from the disk
     for line in sys.stdin:
+        # they are on the disk by then: to compile would start threads, which no fork has
+        importlib.import_module("safe.evolution").compile_kernels()
         number = os.fork()
         if number == 0:
             become_kernel(**json.loads(line))

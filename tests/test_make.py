@@ -38,17 +38,18 @@ def test_every_target_of_the_makefile_is_a_step():
 def project(tmp_path, monkeypatch):
     """A project whose environment has been made, and the list of the programs that are started in it."""
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(make.shutil, "which", lambda _: None)
     for name in PINS:
         (tmp_path / name).write_text(name, encoding="utf-8")
     program = tmp_path / make._program("uv")
     program.parent.mkdir(parents=True)
-    for file in (program, tmp_path / ".venv" / "created"):
+    for file in (program, tmp_path / make._program("pip"), tmp_path / ".venv" / "created"):
         file.touch()
     project = SimpleNamespace(started=[], failing=(), path=tmp_path)
 
     def start(*command, **options):
         project.started.append(command)
-        code = int(command[0] in project.failing or command[:3] in project.failing)
+        code = int(bool({command, command[0], command[:3]} & {*project.failing}))
         return SimpleNamespace(poll=lambda: code, returncode=code)
 
     monkeypatch.setattr(make, "_start", start)
@@ -74,6 +75,46 @@ def test_pip_installs_if_uv_cannot(project):
     make.env()
     assert [command[:3] for command in project.started] == [("uv", "pip", "install"), ("python", "-m", "pip")]
     assert project.started[1][-4:] == ("--constraint", "constraints.txt", "--requirement", "requirements.txt")
+
+
+def test_uv_on_the_path_is_used_in_an_environment_without_pip(project, monkeypatch):
+    (project.path / ".venv" / "created").unlink()
+    for name in ("pip", "uv"):
+        (project.path / make._program(name)).unlink()
+    elsewhere = project.path / "uv"
+    elsewhere.touch()
+    monkeypatch.setattr(make.shutil, "which", lambda name: str(elsewhere) if name == "uv" else None)
+    made = []
+    monkeypatch.setattr(
+        make.subprocess, "Popen", lambda command: made.append(command) or SimpleNamespace(poll=lambda: 0, returncode=0)
+    )
+    make.env()
+    assert made == [[sys.executable, "-m", "venv", "--without-pip", ".venv"]]
+    assert [command[:3] for command in project.started] == [("uv", "pip", "install")]
+    assert make._program("uv") == str(elsewhere)
+    project.failing = ("uv",)
+    (project.path / PINS[0]).write_text("changed", encoding="utf-8")
+    make.env()
+    assert [command[:4] for command in project.started[2:]] == [
+        ("python", "-m", "ensurepip", "--default-pip"),
+        ("python", "-m", "pip", "install"),
+        ("python", "-m", "pip", "install"),
+    ]
+
+
+def test_a_book_that_is_unchanged_is_not_made_again(project):
+    project.failing = (make.UNCHANGED,)
+    make.book()
+    assert [command[1:] for command in project.started[1:]] == [
+        ("book/unchanged.py",),
+        ("book/execute.py",),
+        ("book/build.py",),
+        ("book/unchanged.py", "--made"),
+    ]
+    project.started.clear()
+    project.failing = ()
+    make.book()
+    assert project.started == [make.UNCHANGED]
 
 
 def test_packages_that_could_not_be_installed_are_asked_for_again(project):

@@ -1,5 +1,7 @@
 """The package as users get it: in an archive of the repository, a wheel or a source distribution."""
 
+import ast
+import importlib
 import json
 import os
 import shutil
@@ -12,6 +14,7 @@ from zipfile import ZipFile
 
 import pytest
 
+import safe
 from safe.playground import bundle
 
 ROOT = Path(__file__).parents[1]
@@ -120,3 +123,42 @@ def test_a_package_without_its_javascript_says_so(wheel, tmp_path):
         "AttributeError: safe.Playground needs the package's JavaScript; "
         f"there is no folder {tmp_path / JAVASCRIPT}: install the package again"
     )
+
+
+# What importing it loads
+
+
+def loaded_after(code, folder):
+    """The packages that a new process has loaded after this code."""
+    made = run(folder, f"{code}; import sys; print(*sys.modules)", PYTHONPATH=str(ROOT))
+    assert made.returncode == 0, made.stderr
+    return set(made.stdout.split())
+
+
+def test_what_takes_long_is_imported_on_first_use(tmp_path):
+    slow = {"IPython", "matplotlib", "numba", "numpy", "pandas", "scipy", "sqlite3", "statsmodels", "tqdm"}
+    assert slow & loaded_after("import safe", tmp_path) == set()
+    shown = {"IPython", "matplotlib", "pandas", "statsmodels"}
+    computed = loaded_after("import safe; safe.Experiment, safe.run, safe.evolve, safe.merge, safe.verify", tmp_path)
+    assert shown & computed == set()
+    assert slow - shown <= computed
+
+
+def test_every_public_name_is_what_its_module_defines():
+    assert {*safe._MODULES} == {*safe.__all__, "Playground"} - {"__version__"}
+    for name, module in safe._MODULES.items():
+        assert getattr(safe, name) is getattr(importlib.import_module(module), name)
+        if callable(getattr(safe, name)):
+            assert getattr(safe, name).__module__ == module
+    assert {*safe._MODULES, "__version__"} <= {*dir(safe)}
+    with pytest.raises(AttributeError, match="module 'safe' has no attribute 'evolv'"):
+        safe.evolv  # noqa: B018
+
+
+def test_type_checkers_find_each_public_name_where_it_is():
+    (block,) = (
+        node for node in ast.parse(Path(safe.__file__).read_text(encoding="utf-8")).body if isinstance(node, ast.If)
+    )
+    assert ast.unparse(block.test) == "TYPE_CHECKING"
+    found = {name.asname or name.name: node.module for node in block.body for name in node.names}
+    assert found == safe._MODULES

@@ -5,9 +5,10 @@
     runs          one row for each finished run (see `Run`), with a checksum
 
 Opened for writing, a file is switched to WAL mode, so that several processes can read and write it at once, and gets
-the present layout. Reading changes no run and no layout: an earlier one is updated in memory alone. A store that is
-read-only or somebody else's is read from a copy, since SQLite would put files beside it that lock its owner out. In a
-store of one's own a reader does what any last user of a file in WAL mode does: it moves what is in the log to the file.
+the present layout. Reading changes no run and no layout: an earlier one is updated in memory alone. Beside a store that
+is read-only or somebody else's SQLite would put files that lock its owner out. Such a store is read without locks if
+there is no log, which means that nobody is writing, and from a copy if there is one. In a store of one's own a reader
+does what any last user of a file in WAL mode does: it moves what is in the log to the file.
 """
 
 from __future__ import annotations
@@ -103,7 +104,7 @@ def open_for_writing(path: str | os.PathLike | None) -> sqlite3.Connection:
         file = _real(path)
         file.parent.mkdir(parents=True, exist_ok=True)
         for place, what in ((file, "the file"), (file.parent, "its folder")):
-            if place.exists() and not _may_write(place):
+            if place.exists() and not _may(place, os.W_OK):
                 raise PermissionError(f"permission denied: {what} is read-only")
         connection = _connect(file)
     with _closed_after_failure(connection):
@@ -131,8 +132,10 @@ def open_for_reading(path: str | os.PathLike | None, must_exist: bool) -> sqlite
         connection = _connect(":memory:")
     elif mode := _mode_in_place(file):
         connection = _connect(f"{file.as_uri()}?mode={mode}", uri=True)
-    else:
+    elif any(_beside(file, ending).exists() for ending in ("-wal", "-journal")):
         connection = _copy(file)
+    else:
+        connection = _at_rest(file)
     with _closed_after_failure(connection):
         is_current = _is_current(connection)
     if not is_current:
@@ -155,8 +158,9 @@ def _beside(file: Path, ending: str) -> Path:
     return file.with_name(file.name + ending)
 
 
-def _may_write(place: Path) -> bool:
-    return os.access(place, os.W_OK, effective_ids=os.access in os.supports_effective_ids)
+def _may(place: Path, mode: int) -> bool:
+    """May this process use a file or folder in this mode, os.R_OK or os.W_OK?"""
+    return os.access(place, mode, effective_ids=os.access in os.supports_effective_ids)
 
 
 def _connect(database: str | Path, **options: object) -> sqlite3.Connection:
@@ -253,13 +257,35 @@ def _mode_in_place(file: Path) -> str | None:
     A file that this process itself has open for writing must not be copied: to open and close it by other means than
     SQLite cancels all of the process's locks on it (https://www.sqlite.org/howtocorrupt.html).
     """
-    if not _may_write(file):
+    if not _may(file, os.W_OK):
         return None
     log, index, journal = (_beside(file, ending).exists() for ending in ("-wal", "-shm", "-journal"))
     is_own = not hasattr(os, "geteuid") or file.stat().st_uid == os.geteuid()
-    if is_own and _may_write(file.parent) and not journal:
+    if is_own and _may(file.parent, os.W_OK) and not journal:
         return "rw"  # "ro" would leave the log to the next writer if the last one ends during the reading
     return "ro" if log and index else None
+
+
+class _AtRest(sqlite3.Connection):
+    """A connection that reads a file without locks. If the file was written meanwhile, to close it fails."""
+
+    file: Path
+    stamp: tuple[int, int, int]
+
+    def close(self) -> None:
+        super().close()
+        if _stamp(self.file) != self.stamp:
+            raise sqlite3.OperationalError("it was written while it was read")
+
+
+def _at_rest(file: Path) -> sqlite3.Connection:
+    """A connection to a store without a log, which nobody is writing then, and beside which SQLite puts no file."""
+    if not _may(file, os.R_OK):  # SQLite would not say why it fails
+        raise PermissionError("permission denied")
+    stamp = _stamp(file)
+    connection = _connect(f"{file.as_uri()}?immutable=1", uri=True, factory=_AtRest)
+    connection.file, connection.stamp = file, stamp
+    return connection
 
 
 def _copy(file: Path) -> sqlite3.Connection:
@@ -297,8 +323,7 @@ def _stamp(file: Path) -> tuple[int, int, int]:
 
 def _in_memory(source: sqlite3.Connection) -> sqlite3.Connection:
     """A copy of a database in memory, in place of the database, which is closed."""
-    with closing(source):
-        connection = _connect(":memory:")
-        with _closed_after_failure(connection):
-            source.backup(connection)
+    connection = _connect(":memory:")
+    with _closed_after_failure(connection), closing(source):
+        source.backup(connection)
     return connection

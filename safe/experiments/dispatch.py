@@ -175,7 +175,7 @@ class Dispatcher:
     def _note(self) -> str:
         """What is stored, and how to go on: the note that an interruption or error carries."""
         total = self.experiment.runs
-        kept = len(self.store.finished(self.entry).intersection(range(total)))
+        kept = len(self.store.finished(self.entry, total))
         if self.store.path is None:
             return f"{kept} of {total} runs were finished; without a store they are not kept"
         return f"{kept} of {total} runs are kept in {self.store.path}; run the experiment again to compute the rest"

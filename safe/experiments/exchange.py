@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from safe import checks
 from safe.evolution import RULES, Run, evolve
@@ -14,6 +14,9 @@ from safe.experiments.progress import bar
 from safe.experiments.provenance import Origin
 from safe.experiments.store import Store, StoredExperiment, StoreError
 from safe.kernel import loaded_sources
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 def merge(store: str | os.PathLike, other: str | os.PathLike) -> int:
@@ -106,18 +109,18 @@ def verify(store: str | os.PathLike, sample: int = 10, seed: int | None = None, 
     sample = checks.integer("sample", sample, 1)
     draw = np.random.default_rng(None if seed is None else checks.integer("seed", seed, 0))
     with Store.for_reading(store) as results:
-        stored = [
-            (entry, kept.number)
-            for entry in results.experiments()
-            if entry.content.get("rules") == RULES
-            for kept in results.runs(entry)
-        ]
-        chosen = draw.choice(len(stored), min(sample, len(stored)), replace=False)
-        kept_runs = [
-            (entry, kept, results.origin_of(kept.batch))
-            for entry, number in (stored[i] for i in chosen)
-            for kept in results.runs(entry, first=number, below=number + 1)
-        ]
+        entries = [entry for entry in results.experiments() if entry.content.get("rules") == RULES]
+        numbers = [np.fromiter((kept.number for kept in results.runs(entry)), np.int64) for entry in entries]
+        starts = np.cumsum([0, *map(len, numbers)])
+        chosen = draw.choice(starts[-1], min(sample, starts[-1]), replace=False)
+        kept_runs = []
+        for place in chosen:
+            which = int(np.searchsorted(starts, place, side="right")) - 1
+            number = int(numbers[which][place - starts[which]])
+            (kept,) = results.runs(entries[which], first=number, below=number + 1)
+            kept_runs.append((entries[which], kept, results.origin_of(kept.batch)))
+    import pandas as pd
+
     same, experiments = [], {}
     for entry, (number, kept, *_), origin in bar("verifying", progress, iterable=kept_runs, unit="run"):
         if entry.id not in experiments:

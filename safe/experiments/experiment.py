@@ -10,22 +10,25 @@ from __future__ import annotations
 
 import os
 import string
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from safe import checks
 from safe.algorithms import Algorithm, Parameters, get_algorithm
 from safe.evolution import RULES, Generation, Run, generations
 from safe.experiments.dispatch import Dispatcher
-from safe.experiments.store import Store, StoredExperiment, content_text, sha256
+from safe.experiments.store import Store, StoredExperiment, StoredRun, content_text, sha256
 from safe.maze import Maze
 from safe.maze_files import load_maze
 from safe.robot import WEIGHTS
+
+if TYPE_CHECKING:  # imported where a table is made, since processes that only compute runs need none
+    import pandas as pd
 
 MOST_SEEDS = 2**128  # numpy, too, draws from so many if it is asked for a seed
 WEIGHT_COLUMNS = [f"p{i}" for i in range(1, WEIGHTS + 1)]
@@ -218,20 +221,35 @@ def run(
     with Store.for_reading(store, must_exist=False) as results:
         entries = results.experiments(experiment.digest)
         is_complete = len(entries) == 1 and not _missing(experiment, results, entries[0])
-        stored = results.runs(entries[0], experiment.runs) if is_complete else []
-    if not is_complete:
-        with Store.for_writing(store) as results:
-            entry = results.entry(experiment.content, experiment.algorithm.name, experiment.maze.name)
-            missing = _missing(experiment, results, entry)
-            if missing:
-                Dispatcher(experiment, results, entry, executor, cores).compute(missing, progress)
-            stored = results.runs(entry, experiment.runs)
-    return pd.DataFrame([{"run": number, **row_of(run), "seconds": seconds} for number, run, seconds, _ in stored])
+        if is_complete:
+            return _table(experiment.runs, results.runs(entries[0], experiment.runs))
+    with Store.for_writing(store) as results:
+        entry = results.entry(experiment.content, experiment.algorithm.name, experiment.maze.name)
+        missing = _missing(experiment, results, entry)
+        if missing:
+            Dispatcher(experiment, results, entry, executor, cores).compute(missing, progress)
+        return _table(experiment.runs, results.runs(entry, experiment.runs))
 
 
 def _missing(experiment: Experiment, store: Store, entry: StoredExperiment) -> list[int]:
     """The numbers of the runs that the experiment's entry in a store lacks."""
-    return sorted(set(range(experiment.runs)) - store.finished(entry))
+    is_missing = np.ones(experiment.runs, dtype=bool)
+    is_missing[store.finished(entry, experiment.runs)] = False
+    return np.flatnonzero(is_missing).tolist()
+
+
+def _table(size: int, stored: Iterable[StoredRun]) -> pd.DataFrame:
+    """The table of so many runs, made without a copy, since it may need much of the memory."""
+    import pandas as pd
+
+    columns: dict[str, np.ndarray] = {}
+    for place, (number, run, seconds, _) in enumerate(stored):
+        row = {"run": number, **row_of(run), "seconds": seconds}
+        if place == 0:
+            columns = {name: np.empty(size, dtype=type(value)) for name, value in row.items()}
+        for name, value in row.items():
+            columns[name][place] = value
+    return pd.DataFrame({name: column[: place + 1] for name, column in columns.items()}, copy=False)
 
 
 def run_all(

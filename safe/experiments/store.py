@@ -18,6 +18,8 @@ from datetime import UTC, datetime
 from functools import partial
 from typing import NamedTuple
 
+import numpy as np
+
 from safe import checks
 from safe.evolution import Run
 from safe.experiments.database import (
@@ -35,8 +37,9 @@ _LONGEST_PATH = 120  # characters that an error message shows
 _CELLS = {  # by the type of a field of Run: how its cell is written, and how it is read
     "bool": (int, bool),
     "int": (int, int),
-    "tuple[float, ...]": (json.dumps, lambda text: tuple(json.loads(text))),
+    "tuple[float, ...]": (json.dumps, lambda text: tuple(map(float, json.loads(text)))),
 }
+_WRITERS, _READERS = zip(*(_CELLS[field.type] for field in fields(Run)), strict=True)
 _INSERT_BATCH = insertion("batches", "experiment", *Origin._fields)
 
 
@@ -103,7 +106,8 @@ class Store:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._connection.close()
+        with self._store_errors():
+            self._connection.close()
 
     def __str__(self) -> str:
         """The path as error messages show it: whole, or the end of it, which names the file."""
@@ -173,11 +177,12 @@ class Store:
             found.append(StoredExperiment(number, its_digest, content, *labels))
         return found
 
-    def finished(self, experiment: StoredExperiment) -> set[int]:
-        """The numbers of an experiment's runs in the store."""
+    def finished(self, experiment: StoredExperiment, below: int = 2**63 - 1) -> np.ndarray:
+        """The numbers of an experiment's runs in the store that are below `below`, in order, array of int64."""
+        query = "SELECT run FROM runs WHERE experiment = ? AND run >= 0 AND run < ? ORDER BY run"
         with self._store_errors():
-            rows = self._connection.execute("SELECT run FROM runs WHERE experiment = ?", (experiment.id,))
-            return {number for (number,) in rows}
+            rows = self._connection.execute(query, (experiment.id, below))
+            return np.fromiter((number for (number,) in rows), dtype=np.int64)
 
     def successes(self, experiment: StoredExperiment, below: int) -> int:
         """How many of the stored runs with a number below `below` succeeded."""
@@ -213,24 +218,28 @@ class Store:
             raise self._damaged(f"batch {checks.shown(batch)}")
         return Origin(*row)
 
-    def runs(self, experiment: StoredExperiment, below: int = 2**63 - 1, first: int = 0) -> list[StoredRun]:
-        """The stored runs of an experiment with numbers from `first` to below `below`, in order."""
+    def runs(self, experiment: StoredExperiment, below: int = 2**63 - 1, first: int = 0) -> Iterator[StoredRun]:
+        """The stored runs of an experiment with numbers from `first` to below `below`, one at a time.
+
+        They are in order, and their controllers are alike in length, as are their coefficients.
+        """
+        query = f"SELECT batch, checksum, {columns(RUN)} FROM runs WHERE experiment = ? AND run >= ? AND run < ?"
+        last, lengths = first - 1, None
         with self._store_errors():
-            rows = self._connection.execute(
-                f"SELECT batch, checksum, {columns(RUN)} FROM runs"
-                " WHERE experiment = ? AND run >= ? AND run < ? ORDER BY run",
-                (experiment.id, first, below),
-            ).fetchall()
-        found = []
-        for batch, expected, *row in rows:
-            number, *cells, seconds = row
-            try:
-                if checksum(experiment.digest, *row) != expected:
-                    raise ValueError
-                found.append(StoredRun(number, _from_cells(cells), seconds, batch))
-            except (TypeError, ValueError):
-                raise self._damaged(f"run {checks.shown(number)} of {experiment.label}") from None
-        return found
+            rows = self._connection.execute(f"{query} ORDER BY run", (experiment.id, first, below))
+            for batch, expected, *row in rows:
+                number, *cells, seconds = row
+                try:
+                    if checksum(experiment.digest, *row) != expected:
+                        raise ValueError
+                    found = StoredRun(int(number), _from_cells(cells), float(seconds), batch)
+                    lengths = lengths or _lengths(found.run)
+                    if found.number <= last or _lengths(found.run) != lengths:
+                        raise ValueError
+                except (TypeError, ValueError):
+                    raise self._damaged(f"run {checks.shown(number)} of {experiment.label}") from None
+                yield found
+                last = found.number
 
 
 def content_text(content: dict) -> str:
@@ -252,9 +261,13 @@ def _read_content(text: object, digest: str) -> dict:
 
 def _to_cells(run: Run) -> list:
     """A run as the cells of a row."""
-    return [_CELLS[field.type][0](getattr(run, field.name)) for field in fields(Run)]
+    return [write(getattr(run, field.name)) for write, field in zip(_WRITERS, fields(Run), strict=True)]
 
 
 def _from_cells(cells: Sequence) -> Run:
     """The inverse of `_to_cells`. Raises TypeError or ValueError if a cell holds something else."""
-    return Run(*(_CELLS[field.type][1](cell) for field, cell in zip(fields(Run), cells, strict=True)))
+    return Run(*(read(cell) for read, cell in zip(_READERS, cells, strict=True)))
+
+
+def _lengths(run: Run) -> tuple[int, int]:
+    return len(run.controller), len(run.coefficients)

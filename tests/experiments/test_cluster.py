@@ -75,7 +75,7 @@ def test_the_store_says_what_the_workers_were(cluster, tmp_path):
     run(replace(EXPERIMENT, runs=2), tmp_path / "s.sqlite", client.get_executor(), progress=False)
     with Store.for_reading(tmp_path / "s.sqlite") as store:
         (found,) = store.experiments()
-        assert store.origin_of(store.runs(found)[0].batch).python == sys.version.split()[0]
+        assert store.origin_of(next(store.runs(found)).batch).python == sys.version.split()[0]
 
 
 def test_without_a_scheduler_there_is_no_executor():

@@ -133,7 +133,10 @@ def test_a_store_of_the_first_layout_gets_checksums(store):
     [
         "UPDATE runs SET controller = 'x' WHERE run = 7",
         "UPDATE runs SET coefficients = '7' WHERE run = 7",
+        "UPDATE runs SET coefficients = '[\"a\", 1.0]' WHERE run = 7",
+        "UPDATE runs SET controller = '[0.5]' WHERE run = 7",
         "UPDATE runs SET distance = 'near' WHERE run = 7",
+        "UPDATE runs SET seconds = 'few' WHERE run = 7",
     ],
 )
 def test_damage_that_has_got_a_checksum(store, change):
@@ -363,7 +366,7 @@ def test_a_store_that_others_may_write_as_well_is_read_without_files_of_the_read
     shared.chmod(0o777)
     (shared / "s.sqlite").chmod(0o666)
     with as_somebody_who_may_only_read(), Store.for_reading(shared / "s.sqlite") as store:
-        assert len(store.runs(*store.experiments())) == 12
+        assert len(list(store.runs(*store.experiments()))) == 12
         assert [file.name for file in shared.iterdir()] == ["s.sqlite"]
 
 
@@ -410,9 +413,42 @@ def test_a_file_that_never_rests_is_not_copied(tmp_path, monkeypatch):
     monkeypatch.setattr(database, "_mode_in_place", lambda file: None)
     monkeypatch.setattr(database, "_state", lambda file: object())
     monkeypatch.setattr(database, "_PATIENCE", 0.01)
-    Store.for_writing(tmp_path / "s.sqlite").__exit__()
-    with pytest.raises(StoreError, match="written without a pause"):
+    with Store.for_writing(tmp_path / "s.sqlite"), pytest.raises(StoreError, match="written without a pause"):
         Store.for_reading(tmp_path / "s.sqlite")
+
+
+def test_a_store_that_nobody_writes_is_not_copied(shared, monkeypatch):
+    monkeypatch.setattr(database, "_copy", None)
+    forbid_writing(shared)
+    with as_somebody_who_may_only_read(), Store.for_reading(shared / "s.sqlite") as store:
+        ((_, _, file),) = store._connection.execute("PRAGMA database_list")
+        assert file == os.path.realpath(shared / "s.sqlite")
+
+
+def test_a_store_that_is_written_while_it_is_read_without_locks(tmp_path, monkeypatch):
+    def write(number):
+        with Store.for_writing(tmp_path / "s.sqlite") as store:
+            add(store, number)
+
+    write(1)
+    monkeypatch.setattr(database, "_mode_in_place", lambda file: None)
+    reader = Store.for_reading(tmp_path / "s.sqlite")
+    write(2)
+    with pytest.raises(StoreError, match=r"^store must .*s\.sqlite' \(it was written while it was read\)$"), reader:
+        next(reader.runs(*reader.experiments()))
+    assert numbers(tmp_path / "s.sqlite") == [1, 2]
+
+
+def test_a_log_that_begins_while_a_store_is_read_without_locks(tmp_path, monkeypatch):
+    with Store.for_writing(tmp_path / "s.sqlite") as store:
+        add(store, 1)
+    monkeypatch.setattr(database, "_mode_in_place", lambda file: None)
+    reader = Store.for_reading(tmp_path / "s.sqlite")
+    with Store.for_writing(tmp_path / "s.sqlite") as store:
+        with reader:
+            add(store, 2)
+            assert [kept.number for kept in reader.runs(*reader.experiments())] == [1]
+        assert numbers(tmp_path / "s.sqlite") == [1, 2]
 
 
 def test_a_store_that_is_open_for_reading_takes_no_runs(tmp_path):

@@ -21,7 +21,7 @@ def test_stores_of_a_class_are_merged(tmp_path):
     assert merge(tmp_path / "all", tmp_path / "b") == merge(tmp_path / "all", tmp_path / "all") == 0
     assert set(verify(tmp_path / "all", sample=100, progress=False).value_counts("seed").items()) == {(3, 8), (4, 4)}
     with Store.for_reading(tmp_path / "all") as together, Store.for_reading(tmp_path / "b") as b:
-        runs, originals = (store.runs(store.experiments()[0]) for store in (together, b))
+        runs, originals = (list(store.runs(store.experiments()[0])) for store in (together, b))
         assert together.origin_of(runs[7].batch) == b.origin_of(originals[7].batch)
         assert [r.seconds for r in runs[5:]] == [r.seconds for r in originals[5:]]
 
@@ -29,7 +29,7 @@ def test_stores_of_a_class_are_merged(tmp_path):
 def test_stores_that_disagree_are_not_merged(store, tmp_path):
     with Store.for_writing(tmp_path / "other") as other, Store.for_writing(store) as right:
         (found,) = right.experiments()
-        runs = right.runs(found)
+        runs = list(right.runs(found))
         distance = runs[3].run.distance
         wrong = replace(runs[3].run, distance=distance + 1)
         entry = other.entry(found.content, found.algorithm, found.maze)
@@ -113,6 +113,6 @@ def test_experiments_of_a_version_that_knows_more(store):
         (found,) = results.experiments()
         content = found.content | {"parameters": {"weather": "fine"}}
         entry = results.entry(content, "safe", "maze1")
-        results.add(entry, origin(), [(0, results.runs(found)[0].run, 1.0)])
+        results.add(entry, origin(), [(0, next(results.runs(found)).run, 1.0)])
     with pytest.raises(StoreError, match=r"store must hold experiments that this version can make; got .*s\.sqlite"):
         verify(store, sample=100, progress=False)

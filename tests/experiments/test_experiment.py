@@ -1,4 +1,5 @@
 import json
+import tracemalloc
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
@@ -7,6 +8,8 @@ import pytest
 import safe
 from safe import Algorithm, Experiment, Maze, Parameters, run
 from safe.experiments import experiment as module
+from safe.experiments.provenance import origin
+from safe.experiments.store import Store
 from tests.experiments import EXPERIMENT
 
 
@@ -34,6 +37,23 @@ def test_random_search_has_no_coefficients():
     table = run(replace(EXPERIMENT, algorithm="random", runs=2), progress=False)
     assert [*table][-3:] == ["p16", "evaluations", "seconds"]
     assert len(table) == 2
+
+
+def test_a_table_takes_at_most_twice_its_memory(uninterrupted, tmp_path):
+    experiment = replace(EXPERIMENT, runs=10_000)
+    outcome = safe.evolve("maze1", "safe", 1, EXPERIMENT.parameters)
+    with Store.for_writing(tmp_path / "s.sqlite") as store:
+        entry = store.entry(experiment.content, "safe", "maze1")
+        store.add(entry, origin(), [(number, outcome, number / 7) for number in range(experiment.runs)])
+    tracemalloc.start()
+    try:
+        table = run(experiment, tmp_path / "s.sqlite", progress=False)
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert table.drop(columns="seconds").dtypes.equals(uninterrupted.dtypes)
+    assert table.seconds.tolist() == [number / 7 for number in range(experiment.runs)]
+    assert peak < 2 * table.memory_usage().sum()
 
 
 @pytest.mark.parametrize("executor", [7, "threads", ThreadPoolExecutor])
