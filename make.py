@@ -100,7 +100,8 @@ def fuzz():
 def evidence():
     """make again what is recorded beyond the paper"""
     env()
-    _run("python", "-m", "safe.companion.evidence")
+    for module in ("evidence", "peers"):
+        _run("python", "-m", f"safe.companion.{module}")
 
 
 def format():

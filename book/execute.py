@@ -26,7 +26,7 @@ import safe
 from executed import EXECUTED, NOTEBOOKS, ROOT, STAMP, notebooks, requested_parameters, stamp, what_is_wrong
 from forked import fork_jupyters_kernels
 from isolated import isolated
-from safe.companion import evidence
+from safe.companion import evidence, peers
 from safe.companion.project import STORE
 from safe.experiments.cores import available_cores
 
@@ -141,6 +141,7 @@ def main() -> None:
     if not options.names:
         try:
             runs, traces = evidence.verify()
+            runs += peers.verify()
         except ValueError as error:
             sys.exit(f"the recorded evidence cannot be trusted: {error}")
         said = f"{runs} recorded run{'s' * (runs != 1)} and {traces} recorded trace{'s' * (traces != 1)}"

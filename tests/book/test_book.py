@@ -415,10 +415,11 @@ def test_runs_made_from_other_sources_are_counted(checkout, book_of, monkeypatch
     monkeypatch.setattr(execute, "_execute_all", lambda *_: None)
     monkeypatch.setattr(execute.safe, "verify", lambda *_: repeated)
     monkeypatch.setattr(execute.evidence, "verify", lambda: (5, 1))
+    monkeypatch.setattr(execute.peers, "verify", lambda: 2)
     execute.main()
     line, recorded = capsys.readouterr().out.splitlines()
     assert line == f"3 stored runs, drawn at random, were repeated and gave the same results{said}"
-    assert recorded == "5 recorded runs and 1 recorded trace, drawn at random, were repeated and gave the same results"
+    assert recorded == "7 recorded runs and 1 recorded trace, drawn at random, were repeated and gave the same results"
 
 
 def test_evidence_that_is_not_reproduced_stops_the_build(checkout, book_of, monkeypatch):
