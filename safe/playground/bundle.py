@@ -3,8 +3,8 @@
 Modules cannot import one another in a page opened as a file, in a widget, or in a worker made from a text. Those of the
 folder `javascript` keep to a few forms, so that no parser is needed to join them: a line begins with
 `import { a, b } from "./x.js";`, with `export` before a function, const or class, or with
-`export { a, b } from "./x.js";`; and no two modules declare the same name at the beginning of a line. One module is not
-in the folder: `packaged_mazes.js` is written here, from the package's mazes.
+`export { a, b } from "./x.js";`; no two modules declare the same name at the beginning of a line; and the character `
+comes in pairs. One module is not in the folder: `packaged_mazes.js` is written here, from the package's mazes.
 """
 
 from __future__ import annotations
@@ -24,7 +24,8 @@ _FROM = re.compile(r'^(import|export)\s*\{([^{}]*)\}\s*from\s*"\./([^"/]+)";[^\S
 _DECLARATION = re.compile(
     r"^(export\s+)?((?:async\s+)?function\b\s*\*?\s*|(?:const|let|class)\s+)([\w$]+)", re.MULTILINE
 )
-_COMMENT = re.compile(r"^[^\S\n]*(?://.*|/\*\*(?:(?!\*/).|\n)*\*/)\n", re.MULTILINE)  # that fills its lines
+_DESCRIPTION = re.compile(r"^[^\S\n]*/\*\*(?:(?!\*/).|\n)*\*/\n", re.MULTILINE)  # that fills its lines
+_LAST_COMMENT = re.compile(r"\s+//[^\"'`/]*$")  # of a line; if it stood in a literal, the end of that would follow
 _COMMENT_OF_A_LIST = re.compile(r"^#.*\n", re.MULTILINE)
 _OTHER_FORM = re.compile(r"^(?:import|export)\b.*|(?<![\w$.#])import\s*(?:\(|\.\s*meta\b).*", re.MULTILINE)
 
@@ -49,7 +50,7 @@ class _Module(NamedTuple):
     imports: list[tuple[str, set[str]]]  # from which module, which names
     exports: set[str]
     names: list[str]  # declared at the beginning of a line
-    body: str  # without imports, exports, and comments that fill their lines
+    body: str  # without imports and exports, shortened
 
 
 def script(entries: tuple[str, ...] = ENTRIES, folder: Path = FOLDER) -> str:
@@ -132,5 +133,25 @@ def _parse(text: str, file: str) -> _Module:
     body = _DECLARATION.sub(r"\2\3", body)
     if other_form := _OTHER_FORM.search(body):
         raise ValueError(f"{file} must import and export as {Path(__file__).name} reads it; got {other_form.group()!r}")
-    body = re.sub(r"\n{2,}", "\n", _COMMENT.sub("", body))  # for a page to load; to read, there are the modules
+    body = _shortened(_DESCRIPTION.sub("", body), file)
     return _Module(imports, exports, [name for *_, name in declarations], body)
+
+
+def _shortened(text: str, file: str) -> str:
+    """The text for a page to load, without indentation, empty lines and most comments; to read, there are the modules.
+
+    Template literals that span lines stay as they are.
+    """
+    lines = []
+    is_inside = False  # of a template literal
+    for line in text.split("\n"):
+        if is_inside:
+            lines.append(line)
+        elif not (line := line.lstrip()) or line.startswith("//"):
+            continue
+        else:
+            lines.append(line if line.count("`") % 2 else _LAST_COMMENT.sub("", line))
+        is_inside ^= line.count("`") % 2 == 1
+    if is_inside:
+        raise ValueError(f"{file} must hold ` in pairs, also in texts and comments; got an odd number")
+    return "\n".join(lines) + "\n"

@@ -82,6 +82,37 @@ playground().makeWorker();
     assert log == "text/javascript ready\n"
 
 
+@needs_node
+def test_what_is_left_out_means_nothing(write):
+    folder = write(
+        entry=r"""
+/** Everything that
+ * looks like a comment. */
+export const TEXTS = [ // odd ones
+  "a // b", // "c" and 'd'
+  'a // b',   // e
+
+  `a // b`, // the `same` again
+  // a ` of its own
+  `  a // ${["b", "  c // d"].map((one) => `${one} // e`)} f
+    // g
+
+  h`, // i
+  /[ // ]/.source,
+  8 / 4 // 2
+  / 2, // 1 / 2
+];
+"""
+    )
+    text = bundle.script(ENTRY, folder)
+    log = json.loads(node(text + "console.log(JSON.stringify(playground().TEXTS));"))
+    inside = "  a // b // e,  c // d // e f\n    // g\n\n  h"
+    assert log == ["a // b", "a // b", "a // b", inside, "[ // ]", 1]
+    assert "odd" not in text
+    assert "// e\n" not in text
+    assert "\nTEXTS" not in text
+
+
 @pytest.mark.parametrize(
     ("modules", "complaint"),
     [
@@ -108,6 +139,7 @@ playground().makeWorker();
             },
             "base.js must not declare b; entry.js does",
         ),
+        ({"entry": "export const tick = '`';\n"}, "entry.js must hold ` in pairs, .*; got an odd number"),
         (
             {"entry": 'import { a as b } from "./base.js";', "base": "export const a = 1;\n"},
             "entry.js must import what base.js exports; got a as b",

@@ -75,30 +75,24 @@ export function scoreOne(judges, j, i) {
 
 /** The scores that the j-th objective function gives all solutions. */
 export function scoreAll(judges, j, scores) {
-  if (j < judges.weighers) { for (let i = 0; i < scores.length; i++) scores[i] = scoreOne(judges, j, i); }
-  else {
+  const { objectives, genes, components, endpoints } = judges, n = scores.length;
+  if (j >= judges.weighers) {
     const place = placeOf(judges, j);
-    for (let i = 0; i < scores.length; i++) scores[i] = -distanceTo(place, judges.endpoints, i);
+    for (let i = 0; i < n; i++) scores[i] = -distanceTo(place, endpoints, i);
+    return;
+  }
+  scores.fill(0);
+  for (let c = 0; c < components.length; c++) {
+    const coefficient = objectives[j * genes + c], values = components[c];
+    for (let i = 0; i < n; i++) scores[i] += coefficient * values[i];
   }
 }
 
 /** Algorithm 1: the fitness of S_i is max_j O_j(S_i), and the first such O_j is its winner. */
 export function bestScores(judges, fitness, winners) {
-  const { objectives, genes, components, weighers } = judges;
-  const width = components.length;
-  for (let i = 0; i < fitness.length; i++) {
-    fitness[i] = -Infinity;
-    for (let j = 0, first = 0; j < weighers; j++, first += genes) {
-      let score = 0;
-      for (let c = 0; c < width; c++) score += objectives[first + c] * components[c][i]; // as scoreOne, but faster
-      if (score > fitness[i]) {
-        fitness[i] = score;
-        winners[i] = j;
-      }
-    }
-  }
   const scores = new Float64Array(fitness.length);
-  for (let j = weighers; j < countOf(judges); j++) {
+  fitness.fill(-Infinity);
+  for (const j of contenders(judges)) {
     scoreAll(judges, j, scores);
     for (let i = 0; i < scores.length; i++) {
       if (scores[i] > fitness[i]) {
@@ -107,4 +101,20 @@ export function bestScores(judges, fitness, winners) {
       }
     }
   }
+}
+
+/** The objective functions that can win: components are never negative, so none can whose coefficients are all at most
+ * those of an earlier one. */
+function contenders(judges) {
+  const { objectives, genes, weighers } = judges, found = [];
+  const isAtMost = (j, other) => {
+    for (let gene = 0; gene < genes; gene++) {
+      if (objectives[j * genes + gene] > objectives[other * genes + gene]) return false;
+    }
+    return true;
+  };
+  for (let j = 0; j < countOf(judges); j++) {
+    if (j >= weighers || !found.some((other) => isAtMost(j, other))) found.push(j);
+  }
+  return found;
 }

@@ -5,7 +5,7 @@
 // each is offered to the archive right after its score is known. By the other rules of admission, to the archive of end
 // points, points enter only after all are scored: "random" and "threshold" replace the oldest, the others the lowest.
 
-import { nearestDistances } from "./neighbours.js";
+import { Grid } from "./neighbours.js";
 import { rowOf } from "./rows.js";
 
 export const K = 15;
@@ -239,16 +239,19 @@ export function scorePoints(points, archive, k, taxicab, scores, count = scores.
     for (let j = 0; j < archive.size; j++) axes[axis][n + j] = archive.points[j * dimensions + axis];
   }
   const nearest = new Float64Array(Math.min(k + 1, most));
+  const grid = n > 0 ? new Grid(axes, n, n + archive.size) : null;
   for (let i = 0; i < count; i++) {
     // the point finds itself, too, at a distance of 0, which adds nothing to the sum
     const wanted = Math.min(k, n - 1 + archive.size) + 1;
-    nearestDistances(axes, i, n + archive.size, wanted, taxicab, nearest);
+    grid.nearestDistances(i, wanted, taxicab, nearest);
     let total = 0;
     for (let j = 0; j < wanted; j++) total += taxicab ? nearest[j] : Math.sqrt(nearest[j]);
     scores[i] = total / k;
     if (scores[i] > archive.threshold) {
       const place = n + archive.nextPlace;
+      if (archive.nextPlace < archive.size) grid.remove(place);
       for (let axis = 0; axis < dimensions; axis++) axes[axis][place] = points[i * dimensions + axis];
+      grid.add(place);
       archive.enter(points, i, scores[i]);
     }
   }
