@@ -11,9 +11,8 @@ ITEMS = {"Section": 8, "Figure": 5, "Table": 3, "Algorithm": 2, "Equation": 1}  
 
 def rows():
     """The rows of all tables of the page: the item, its subject, and where it is in the book."""
-    cells = [
-        line.strip("|").split("|") for line in (BOOK / "paper-map.md").read_text("utf-8").splitlines() if "|" in line
-    ]
+    text = (BOOK / "paper-map.md").read_text("utf-8").replace("&nbsp;", " ")
+    cells = [line.strip("|").split("|") for line in text.splitlines() if line.startswith("|")]
     return [[cell.strip() for cell in row] for row in cells if row[0].strip() not in ("---", "the paper")]
 
 
