@@ -17,21 +17,40 @@ from safe.algorithms import COEFFICIENTS
 from safe.companion.paper import MAZES, reported
 from safe.companion.verdicts import UNTESTABLE
 from safe.experiments.experiment import WEIGHT_COLUMNS, Experiment
-from safe.maze import ways_to_goal
+from safe.maze import SENSORS, ways_to_goal
 from safe.results import formats
-from safe.results.statistics import compare_rates, success_interval
-from safe.results.tables import COMPARED, Results, evolved_table, generations_table, success_table, with_generations
+from safe.results.statistics import MARGIN, compare_means, compare_rates, success_interval
+from safe.results.tables import (
+    COMPARED,
+    Results,
+    evolved_table,
+    generations_table,
+    pairs,
+    success_table,
+    with_generations,
+)
 from safe.robot import endpoints
 
 SUCCESSES, GENERATIONS, COMPARISONS, EVOLVED = "successes", "generations", "one against another", "evolved values"
+READINGS = "read from the tables"
 
 _NAMES = {
     "standard": "the standard algorithm",
     "novelty": "novelty search",
     "safe": "SAFE",
-    "fixed": "fixed weights ½, ½",
+    "fixed": "fixed coefficients ½, ½",
     "random": "random search",
 }
+# What the paper reads from its Table 3: on which maze, in which sums, the weights of which directions are larger than
+# those of which others.
+_READ_FROM_WEIGHTS = (
+    ("maze1", "h", "right down up", "left", "h weighs the left sensors less than the others"),
+    ("maze1", "h", "right", "left down up", "h weighs the right sensors more than the others"),
+    ("maze1", "v", "right", "left down up", "v weighs the right sensors more than the others"),
+    ("maze2", "hv", "left", "right down up", "h and v weigh the left sensors more than the others"),
+    ("maze2", "hv", "down", "right up", "h and v weigh the down sensors more than the right and up ones"),
+    ("maze2", "hv", "left", "down", "h and v weigh the down sensors less than the left ones"),
+)
 
 
 @dataclass(frozen=True)
@@ -46,7 +65,7 @@ class Claim:
     here: str
     evidence: str  # the experiments and seeds behind it
     test: str
-    direction: int = 0  # +1: claims that the first is larger; 0: claims a number or a likeness
+    direction: int = 0  # +1 or -1: claims that the first is larger, or smaller; 0: claims a number or a likeness
     difference: float = np.nan
     low: float = np.nan
     high: float = np.nan
@@ -63,6 +82,7 @@ def all_claims(results: Results) -> Iterator[Claim]:
     yield from _likenesses(results)
     yield from _deceptions(results)
     yield from _weighings(results)
+    yield from _readings(results)
     yield from _evolved(results)
     yield from _untestable()
 
@@ -125,7 +145,7 @@ def _evolved(results: Results) -> Iterator[Claim]:
                 row,
                 claim=f"{maze} {item}",
                 source="text" if item in COEFFICIENTS else "Table 3",
-                statement=f"{item} on {maze}, the weight of {weighs}",
+                statement=f"{item} on {maze}, the {'coefficient' if item in COEFFICIENTS else 'weight'} of {weighs}",
                 family=EVOLVED,
                 evidence=evidence({experiment: runs}),
                 digits=2,
@@ -133,14 +153,17 @@ def _evolved(results: Results) -> Iterator[Claim]:
 
 
 def _mean_claim(row: pd.Series, digits: int, **what: str) -> Claim:
-    here = f"{formats.mean_and_sd(row['mean'], row.sd, digits)}, n = {row.n:.0f}" if row.n else "no success"
     return Claim(
-        paper=f"{formats.mean_and_sd(row.paper_mean, row.paper_sd, digits)}, n = {row.paper_n:.0f}",
-        here=here,
+        paper=_mean(row.paper_mean, row.paper_sd, row.paper_n, digits),
+        here=_mean(row["mean"], row.sd, row.n, digits),
         test="Welch",
         **what,
         **row[COMPARED],
     )
+
+
+def _mean(mean: float, sd: float, n: float, digits: int) -> str:
+    return f"{formats.mean_and_sd(mean, sd, digits)}, n = {n:.0f}" if n else "no success"
 
 
 def _directions(results: Results) -> Iterator[Claim]:
@@ -169,6 +192,7 @@ def _pair(
     *,
     direction: int = 0,
     source: str = "Table 2",
+    family: str = COMPARISONS,
 ) -> Iterator[Claim]:
     """One of our experiments set against another, each given by maze and algorithm, if both have been run."""
     of = {(experiment.maze.name, experiment.algorithm.name): experiment for experiment in results}
@@ -181,7 +205,7 @@ def _pair(
         claim=f"{' '.join(first)} {'>' if direction else '~'} {' '.join(second)}",
         source=source,
         statement=statement,
-        family=COMPARISONS,
+        family=family,
         paper=" against ".join(formats.count(paper["mean"], paper["n"]) for paper in papers),
         here=" against ".join(formats.count(*counted) for counted in counts),
         evidence="; ".join(evidence({experiment: results[experiment]}) for experiment in both),
@@ -204,6 +228,7 @@ def _deceptions(results: Results) -> Iterator[Claim]:
             len(runs),
             claim=f"{maze.name} deceived",
             source="Figure 2",
+            family=COMPARISONS,
             statement=f"In most runs the standard algorithm is deceived on {maze.name}: its best robot ends less "
             "than half as far from the goal as it starts, with more than 90 % of the way still to go",
             evidence=evidence({experiment: runs}),
@@ -222,6 +247,7 @@ def _weighings(results: Results) -> Iterator[Claim]:
                 claim=f"{maze} b > a",
                 source="text",
                 statement=f"In most successful runs on {maze} the objective function weighs novelty more",
+                family=COMPARISONS,
                 evidence=evidence({experiment: runs}),
             )
 
@@ -230,7 +256,6 @@ def _share_claim(count: int, n: int, **what: str) -> Claim:
     """A claim that something is so in more than half of the runs."""
     low, high = success_interval(count, n)
     return Claim(
-        family=COMPARISONS,
         paper=formats.DASH,
         here=formats.count(count, n),
         test="binomial, Wilson",
@@ -243,6 +268,90 @@ def _share_claim(count: int, n: int, **what: str) -> Claim:
     )
 
 
+def _readings(results: Results) -> Iterator[Claim]:
+    """What the paper's text reads from its tables."""
+    both = ("maze2", "safe"), ("maze2", "novelty")
+    statement = "SAFE succeeds slightly more often than novelty search on maze2"
+    yield from _pair(results, *both, statement, direction=1, source="text", family=READINGS)
+    for maze in MAZES:
+        statement = f"Fixed coefficients ½, ½ succeed as often as novelty search on {maze}"
+        yield from _pair(results, (maze, "fixed"), (maze, "novelty"), statement, source="text", family=READINGS)
+    yield from _faster(results)
+    yield from _always_stuck(results)
+    yield from _weights_read(results)
+
+
+def _faster(results: Results) -> Iterator[Claim]:
+    """SAFE needs slightly fewer generations than novelty search."""
+    for both in pairs(results, [("safe", "novelty")]):
+        maze = both[0].maze.name
+        rows = [row for _, row in generations_table({e: results[e] for e in both}, reported).iterrows()]
+        ours = [value for row in rows for value in (row["mean"], row.sd, int(row.n))]
+        yield Claim(
+            claim=f"{maze} safe < {maze} novelty, generations",
+            source="text",
+            statement=f"SAFE needs slightly fewer generations than novelty search on {maze} (a difference that the "
+            "paper does not call significant)",
+            family=READINGS,
+            paper=" against ".join(_mean(row.paper_mean, row.paper_sd, row.paper_n, 0) for row in rows),
+            here=" against ".join(_mean(row["mean"], row.sd, row.n, 0) for row in rows),
+            evidence="; ".join(evidence({experiment: results[experiment]}) for experiment in both),
+            test="Welch",
+            direction=-1,
+            **asdict(compare_means(*ours)),
+        )
+
+
+def _always_stuck(results: Results) -> Iterator[Claim]:
+    """No run of the standard algorithm reaches the goal: a share of 1, which a single other run contradicts."""
+    for experiment, runs in _of_algorithm("standard", results):
+        paper = reported(experiment).loc["successes"]
+        stuck, n = int((~runs.success).sum()), len(runs)
+        low, high = success_interval(stuck, n)
+        beside = np.cos(MARGIN / 2) ** 2  # the share that is an effect of MARGIN below 1
+        yield Claim(
+            claim=f"{experiment.maze.name} always stuck",
+            source="text",
+            statement=f"The standard algorithm always gets stuck on {experiment.maze.name}: no run reaches the goal",
+            family=READINGS,
+            paper=formats.count(paper["n"] - paper["mean"], paper["n"]),
+            here=formats.count(stuck, n),
+            evidence=evidence({experiment: runs}),
+            test="binomial, Wilson",
+            difference=stuck / n - 1,
+            low=low - 1,
+            high=high - 1,
+            p_value=float(stats.binomtest(stuck, n, 1).pvalue),
+            effect=float(2 * np.arcsin(np.sqrt(stuck / n)) - np.pi),  # Cohen's h
+            p_equivalence=float(stats.binomtest(stuck, n, beside, "greater").pvalue),
+        )
+
+
+def _weights_read(results: Results) -> Iterator[Claim]:
+    """The absolute weights of some sensors are larger than those of others, on average over the sensors."""
+    for experiment, runs in _of_algorithm("safe", results):
+        successful = runs[runs.success]
+        for maze, sums, larger, smaller, statement in _READ_FROM_WEIGHTS:
+            if maze == experiment.maze.name and len(successful):
+                sizes = [_size(successful, sums, directions.split()) for directions in (larger, smaller)]
+                yield _share_claim(
+                    int((sizes[0] > sizes[1]).sum()),
+                    len(successful),
+                    claim=f"{maze} {sums}: {larger} > {smaller}",
+                    source="Table 3",
+                    statement=f"In most successful runs on {maze} {statement}, in absolute value",
+                    family=READINGS,
+                    evidence=evidence({experiment: runs}),
+                )
+
+
+def _size(runs: pd.DataFrame, sums: str, directions: list[str]) -> pd.Series:
+    """The mean absolute weight, run by run, that these sums give to the sensors of these directions."""
+    weighed = zip(product("hv", SENSORS), WEIGHT_COLUMNS, strict=True)
+    columns = [column for (total, sensor), column in weighed if total in sums and sensor.split("_")[1] in directions]
+    return runs[columns].abs().mean(axis=1)
+
+
 def _untestable() -> Iterator[Claim]:
     for claim, source, statement in (
         (
@@ -253,8 +362,15 @@ def _untestable() -> Iterator[Claim]:
         (
             "needed",
             "abstract",
-            "That SAFE evolves the objective functions that are needed: what would show the contrary is not told",
+            "That SAFE evolves the objective functions that are needed: no result is named that would contradict it",
         ),
+        (
+            "balance",
+            "text",
+            "That evolution strikes a fairly even balance between a and b: they multiply quantities in different "
+            "units, so their sizes say nothing of a balance",
+        ),
+        ("harder", "text", "That SAFE's task is more difficult than that of fixed coefficients: no measure is given"),
         ("elsewhere", "abstract", "That a good objective function can be found by evolution in other problems as well"),
     ):
         yield Claim(claim, source, statement, UNTESTABLE, *[formats.DASH] * 4)

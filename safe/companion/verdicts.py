@@ -6,6 +6,9 @@ A number or a likeness ("328 of 500 runs", "as often as novelty search") is comp
 - otherwise reproduced, if an effect as large as `statistics.MARGIN` is ruled out;
 - otherwise no difference detectable at this size.
 
+That something *always* happens is a number, too: all runs. A single run in which it does not is a detected
+difference.
+
 A direction ("more often than") is tested against no difference at all:
 
 - reproduced, if a difference in this direction is detected;

@@ -26,6 +26,7 @@ ABOUT_RUNS = {
     "tab-ledger-comparisons",
     "tab-ledger-evolved",
     "tab-ledger-generations",
+    "tab-ledger-readings",
     "tab-ledger-second-look",
     "tab-ledger-successes",
     "tab-power",

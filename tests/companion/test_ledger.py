@@ -68,6 +68,62 @@ def test_a_verdict_that_changes_is_noticed(results, maze, algorithm, claim, verd
     assert f"{claim}: was 'reproduced', is '{verdict}'" in lines
 
 
+def of(results, maze, algorithm):
+    (runs,) = [runs for e, runs in results.items() if (e.maze.name, e.algorithm.name) == (maze, algorithm)]
+    return runs
+
+
+def test_a_single_run_contradicts_that_all_get_stuck(results):
+    before = ledger.ledger(results).verdict
+    assert before["maze1 always stuck"] == verdicts.REPRODUCED
+    assert before["maze2 always stuck"] == verdicts.NOT_REPRODUCED
+    of(results, "maze1", "standard").loc[7, "success"] = True
+    of(results, "maze2", "standard")["success"] = False
+    after = ledger.ledger(results).verdict
+    assert after["maze1 always stuck"] == verdicts.NOT_REPRODUCED
+    assert after["maze2 always stuck"] == verdicts.REPRODUCED
+
+
+def test_a_few_runs_cannot_show_that_all_get_stuck(results):
+    few = {experiment: runs.head(200) for experiment, runs in results.items()}
+    assert ledger.ledger(few).verdict["maze1 always stuck"] == verdicts.UNDECIDED
+
+
+@pytest.mark.parametrize(
+    ("sooner", "verdict"), [(-100, verdicts.REPRODUCED), (0, verdicts.NOT_REPRODUCED), (100, verdicts.NOT_REPRODUCED)]
+)
+def test_safe_needs_fewer_generations_if_it_succeeds_sooner(results, sooner, verdict):
+    of(results, "maze1", "safe")["generation"] += sooner
+    assert ledger.ledger(results).verdict["maze1 safe < maze1 novelty, generations"] == verdict
+
+
+@pytest.mark.parametrize(
+    ("maze", "sums", "larger", "smaller"),
+    [
+        ("maze1", "h", "right down up", "left"),
+        ("maze1", "h", "right", "left down up"),
+        ("maze1", "v", "right", "left down up"),
+        ("maze2", "hv", "left", "right down up"),
+        ("maze2", "hv", "down", "right up"),
+        ("maze2", "hv", "left", "down"),
+    ],
+)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_what_is_read_from_weights_concerns_their_sizes(results, maze, sums, larger, smaller, sign):
+    first = {"right": 1, "left": 3, "down": 5, "up": 7}  # in the order of Table 3: dist and goal, h and then v
+
+    def weights(directions):
+        numbers = [first[direction] + 8 * (total == "v") for total in sums for direction in directions.split()]
+        return [f"p{number + more}" for number in numbers for more in (0, 1)]
+
+    runs = of(results, maze, "safe")
+    name = f"{maze} {sums}: {larger} > {smaller}"
+    for high, low, verdict in ((larger, smaller, verdicts.REPRODUCED), (smaller, larger, verdicts.NOT_REPRODUCED)):
+        runs[WEIGHT_COLUMNS] = 0.5
+        runs[weights(high)], runs[weights(low)] = sign * 0.6, sign * 0.4
+        assert ledger.ledger(results).verdict[name] == verdict
+
+
 def test_other_evidence_may_lead_to_another_verdict(results):
     few = {experiment: runs.head(20) for experiment, runs in results.items()}
     table = ledger.ledger(few)
@@ -143,6 +199,8 @@ def test_behind_a_claim_are_the_experiments_that_its_evidence_names(results, rep
 
     assert names("maze1 safe successes") == names("maze1 p3") == [("maze1", "safe", 0)]
     assert names("maze1 novelty > maze1 random") == [("maze1", "novelty", 0), ("maze1", "random", 0)]
+    assert names("maze1 safe < maze1 novelty, generations") == [("maze1", "safe", 0), ("maze1", "novelty", 0)]
+    assert names("maze2 hv: left > down") == [("maze2", "safe", 0)]
     assert names("maze2 deceived") == [("maze2", "standard", 0)]
     second = names("maze1 fixed successes, second look")
     assert second == [("maze1", "fixed", seed) for seed in (1, 2, 3, 4)]

@@ -28,6 +28,8 @@ def claim(**values):
         ({"direction": 1, "p_equivalence": 0.01}, verdicts.NOT_REPRODUCED),
         ({"direction": 1, "p_adjusted": 0.01, "p_equivalence": 0.01}, verdicts.REPRODUCED),
         ({"direction": 1}, verdicts.UNDECIDED),
+        ({"direction": -1, "p_adjusted": 0.01, "difference": -0.1}, verdicts.REPRODUCED),
+        ({"direction": -1, "p_adjusted": 0.01}, verdicts.NOT_REPRODUCED),
         ({"family": verdicts.UNTESTABLE}, verdicts.UNTESTABLE),
     ],
 )
