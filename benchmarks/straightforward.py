@@ -22,7 +22,7 @@ from safe.robot import READINGS
 
 def evolve(maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters: Parameters = Parameters()) -> Run:
     """As `safe.evolve`."""
-    state, settings, rng = start_run(maze, algorithm, seed, parameters)
+    state, settings, _, rng = start_run(maze, algorithm, seed, parameters)
     drive(state, settings, rng, *(empty_archive(parameters.archive) for _ in range(2)))
     return run_so_far(state, settings)
 
@@ -50,7 +50,7 @@ def drive(
     judged = len(state.objectives) > 0
     while state.number[0] + 1 < settings.generations:
         if state.number[0] >= 0:
-            breed_both(state, settings, rng)
+            breed_both(state, settings, None, rng)
         state.number[0] += 1
         for i in range(len(state.genomes)):
             row, column = walk(settings.maze, state.genomes[i], settings.steps)

@@ -17,14 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from safe import Maze, Parameters
-from safe.evolution import (
-    NOVELTY,
-    Settings,
-    State,
-    advance,
-    start_run,
-    step_through,
-)
+from safe.evolution import NEVER, NOVELTY, Settings, State, advance, start_run, step_through
 from safe.judges import Judges, best_scores
 from safe.kernel import kernel
 from safe.novelty import score_cells, score_points
@@ -45,6 +38,7 @@ class Recording(NamedTuple):
     fitness: np.ndarray
     objectives: np.ndarray
     objective_fitness: np.ndarray
+    known: np.ndarray  # end points of copies, which need no walk; -1 of others
 
 
 class Workload(NamedTuple):
@@ -56,17 +50,23 @@ class Workload(NamedTuple):
 
 
 def start(maze: Maze | str, algorithm: str, parameters: Parameters) -> tuple[State, Settings, np.random.Generator]:
-    """The start of a run that no success will end."""
-    state, settings, rng = start_run(maze, algorithm, SEED, parameters)
+    """The start of a run by the paper's rules that no success will end."""
+    state, settings, _, rng = start_run(maze, algorithm, SEED, parameters)
     return state, settings._replace(success_distance=-1), rng
 
 
 @lru_cache(maxsize=4)  # 500 generations take some 20 MB
 def record(maze: Maze | str, algorithm: str, parameters: Parameters) -> Recording:
     """A whole run."""
-    run = list(step_through(*start(maze, algorithm, parameters)))
-    recorded = ([getattr(generation, name) for generation in run] for name in Recording._fields)
-    return Recording(*(np.array(values) if values[0] is not None else np.zeros((0, 0)) for values in recorded))
+    state, settings, rng = start(maze, algorithm, parameters)
+    run = list(step_through(state, settings, None, rng))
+    recorded = ([getattr(generation, name) for generation in run] for name in Recording._fields[:-1])
+    arrays = [np.array(values) if values[0] is not None else np.zeros((0, 0)) for values in recorded]
+    known = np.full((len(run), parameters.population, 2), -1)
+    for before, generation, ends in zip(run, run[1:], known[1:], strict=False):
+        is_copy = (generation.genomes == before.genomes[generation.parents]).all(axis=1)
+        ends[is_copy] = generation.endpoints[is_copy]
+    return Recording(*arrays, known)
 
 
 def workload(
@@ -112,7 +112,7 @@ def judges_in(run: Recording, g: int, state: State, settings: Settings) -> Judge
 @kernel
 def robot(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.genomes)):
-        walk_all(settings.maze, run.genomes[g], settings.steps, state.walk_space, state.endpoints, state.paths)
+        walk_all(settings.maze, run.genomes[g], settings.steps, state.walk_space, state.endpoints, None, run.known[g])
 
 
 @kernel
@@ -132,8 +132,7 @@ def fitness(state: State, settings: Settings, rng: np.random.Generator, run: Rec
 @kernel
 def breeding(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.genomes)):
-        judges = judges_in(run, g, state, settings)
-        breed(run.genomes[g], run.fitness[g], judges, state.repertoire, settings.breeding, rng, state.offspring)
+        breed(run.genomes[g], run.fitness[g], None, None, settings.breeding, rng, state.offspring)
         copy_genomes(state.offspring.genomes, state.genomes)
 
 
@@ -146,16 +145,14 @@ def objective_functions(state: State, settings: Settings, rng: np.random.Generat
 @kernel
 def breeding_of_objective_functions(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
     for g in range(len(run.objectives)):
-        judges, rates = judges_in(run, g, state, settings), settings.objective_breeding
-        offspring = state.objective_offspring
-        breed(run.objectives[g], run.objective_fitness[g], judges, state.repertoire, rates, rng, offspring)
+        rates, offspring = settings.objective_breeding, state.objective_offspring
+        breed(run.objectives[g], run.objective_fitness[g], None, None, rates, rng, offspring)
         copy_genomes(offspring.genomes, state.objectives)
 
 
 @kernel
 def whole_generation(state: State, settings: Settings, rng: np.random.Generator, run: Recording) -> None:
-    while advance(state, settings, rng):
-        pass
+    advance(state, settings, None, rng, settings.generations, NEVER)
 
 
 PARTS = {

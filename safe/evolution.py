@@ -31,6 +31,9 @@ genes are drawn, as at first; with "patience" only those of the goals that are g
 
 The loop exists once. Python steps through it (`generations`), to watch and to teach, or compiled code runs it to its
 end (`evolve`). Both call `advance`, and give the same run, bit for bit.
+
+What only choices beyond the paper need is passed as `choices`, which is None in runs by the paper's rules. numba leaves
+out what a condition on it excludes, so a first run by the paper's rules does not wait for the choices to be compiled.
 """
 
 from __future__ import annotations
@@ -82,9 +85,19 @@ from safe.novelty import (
     score_cells,
     score_points,
 )
-from safe.operators import BEST_SCORE, JUDGINGS, Breeding, Offspring, breed, copy_genomes, draw_genomes, empty_offspring
+from safe.operators import (
+    BEST_SCORE,
+    JUDGINGS,
+    Breeding,
+    Offspring,
+    breed,
+    copy_genomes,
+    draw_genomes,
+    empty_offspring,
+    inherit,
+)
 from safe.paths import Paths, empty_paths, score_paths
-from safe.repertoire import POOLS, REPERTOIRE, Repertoire, empty_repertoire, keep_latest, known
+from safe.repertoire import GENERATION, POOLS, REPERTOIRE, Repertoire, empty_repertoire, keep_latest, known
 from safe.robot import WEIGHTS, WalkSpace, walk_all, walk_space
 
 RULES = 1  # version of the rules, raised with every change that alters any run
@@ -166,25 +179,30 @@ def evolve_until_stopped(
     stop: np.ndarray, maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters: Parameters
 ) -> Run | None:
     """As `evolve`, but return None as soon as another thread sets the single value of `stop` to True."""
-    compile_kernels()
-    state, settings, rng = start_run(maze, algorithm, seed, parameters)
-    return run_so_far(state, settings) if run_to_end(state, settings, rng, stop) else None
+    state, settings, choices, rng = start_run(maze, algorithm, seed, parameters)
+    compile_kernels(choices is not None)
+    is_stopped = advance(state, settings, choices, rng, parameters.generations, stop)
+    return None if is_stopped else run_so_far(state, settings)
 
 
-def compile_kernels() -> None:
-    """Compile all that a run needs, or load it from the disk, so that no run's time includes compiling."""
+def compile_kernels(with_choices: bool = False) -> None:
+    """Compile all that a run needs, or load it from the disk, so that no run's time includes compiling.
+
+    A run with choices beyond the paper needs kernels of its own.
+    """
     with _compiling:  # one thread compiles, and the others wait
-        _compile_kernels()
+        _compile_kernels(with_choices)
 
 
 _compiling = threading.Lock()
 
 
 @functools.cache
-def _compile_kernels() -> None:
-    parameters = Parameters(population=4, objectives=4, generations=2, archive=2)
+def _compile_kernels(with_choices: bool) -> None:
+    admission = "random" if with_choices else "lowest replaced"
+    parameters = Parameters(population=4, objectives=4, generations=2, archive=2, admission=admission)
     with while_compiling():
-        run_to_end(*start_run(Maze.from_drawing("S.G"), "safe", 0, parameters), np.zeros(1, dtype=bool))
+        advance(*start_run(Maze.from_drawing("S.G"), "safe", 0, parameters), 2, NEVER)
 
 
 def generations(
@@ -200,8 +218,8 @@ def generations(
     1 400
     2 600
     """
-    compile_kernels()
     start = start_run(maze, algorithm, seed, parameters)  # checks the arguments now, not at the first step
+    compile_kernels(start[2] is not None)
     return step_through(*start)
 
 
@@ -221,7 +239,6 @@ class Settings(NamedTuple):
     first_goal: int  # objective functions from this one on are goals
     components: np.ndarray  # int64, (components,): which of WEIGHABLE they are
     weighed: np.ndarray  # bool, (components,): can any objective function ever weigh it?
-    ways: np.ndarray  # int64, (height, width): the shortest way from each cell to the goal; (0, 0) if nobody asks
     searches_at_random: bool
     breeding: Breeding  # of solutions
     objective_breeding: Breeding
@@ -234,17 +251,13 @@ class State(NamedTuple):
     endpoints: np.ndarray  # int64, (population, 2)
     distances: np.ndarray  # int64, (population,)
     components: np.ndarray  # float64, (components, population)
-    scaled: np.ndarray  # the components as they are weighed; the same array if that is as they are
+    judges: Judges  # the same objectives and end points; its components are scaled, the same if that is as they are
     fitness: np.ndarray  # float64, (population,)
     winners: np.ndarray  # int64, (population,)
     archive: ArchiveArrays
     occupancy: np.ndarray  # int32: points of the archive in each cell, see `empty_occupancy`
-    threshold: np.ndarray  # float64, (2,): of admission by threshold, see `admit`
-    paths: Paths
-    repertoire: Repertoire
     objectives: np.ndarray  # float64, (objective functions, genes)
     objective_fitness: np.ndarray  # float64, (objective functions,)
-    idle: np.ndarray  # int64, (objective functions,): generations since anybody got nearer to a goal
     objective_archive: ArchiveArrays
     best_controller: np.ndarray  # float64, (16,)
     best_coefficients: np.ndarray  # float64, (genes,)
@@ -252,13 +265,27 @@ class State(NamedTuple):
     best_distance: np.ndarray  # int64, (1,)
     offspring: Offspring  # how the present solutions were bred; its genomes are working memory
     objective_offspring: Offspring
+    known: np.ndarray  # int64, (population, 2): end points of copies, -1 of others
     walk_space: WalkSpace  # working memory
+
+
+class Choices(NamedTuple):
+    """What only choices beyond the paper need; its arrays are changed in place, except `ways`."""
+
+    ways: np.ndarray  # int64, (height, width): the shortest way from each cell to the goal; (0, 0) if nobody asks
+    threshold: np.ndarray  # float64, (2,): of admission by threshold, see `admit`
+    idle: np.ndarray  # int64, (objective functions,): generations since anybody got nearer to a goal
+    paths: Paths
+    repertoire: Repertoire
+
+
+NEVER = np.zeros(1, dtype=bool)  # no thread stops these runs
 
 
 def start_run(
     maze: Maze | str, algorithm: Algorithm | str, seed: Seed, parameters: Parameters
-) -> tuple[State, Settings, np.random.Generator]:
-    """The state before the first generation, the settings, and the random generator."""
+) -> tuple[State, Settings, Choices | None, np.random.Generator]:
+    """The state before the first generation, the settings, what choices beyond the paper need, the random generator."""
     maze, algorithm = load_maze(maze), get_algorithm(algorithm)
     if not isinstance(parameters, Parameters):
         raise ValueError(f"parameters must be a Parameters; got {checks.shown(parameters)}")
@@ -300,7 +327,6 @@ def start_run(
         first_goal=first_goal,
         components=components,
         weighed=weighed,
-        ways=_ways(maze) if is_weighed[WAY] else np.zeros((0, 0), dtype=np.int64),
         searches_at_random=algorithm.is_random_search,
         breeding=Breeding(
             parameters.tournament,
@@ -314,23 +340,20 @@ def start_run(
         ),
         objective_breeding=Breeding(*rates, low=0.0, high=1.0),
     )
-    values = np.zeros((len(components), n))
+    values, ends = np.zeros((len(components), n)), np.zeros((n, 2), dtype=np.int64)
+    scaled = values if settings.scaling == RAW else np.zeros_like(values)
     state = State(
         genomes=genomes,
-        endpoints=np.zeros((n, 2), dtype=np.int64),
+        endpoints=ends,
         distances=np.zeros(n, dtype=np.int64),
         components=values,
-        scaled=values if settings.scaling == RAW else np.zeros_like(values),
+        judges=Judges(objectives, scaled, first_goal, ends, maze.shape),
         fitness=np.zeros(n),
         winners=np.zeros(n, dtype=np.int64),
         archive=empty_archive(parameters.archive, 2),
         occupancy=empty_occupancy(maze.shape),
-        threshold=np.array([parameters.threshold, 0.0]),
-        paths=empty_paths(n if follows_paths else 0, maze.shape, parameters.steps),
-        repertoire=empty_repertoire(maze.shape if has_repertoire else (0, 0), WEIGHTS),
         objectives=objectives,
         objective_fitness=np.full(m, -np.inf if algorithm.rating == "patience" else 0.0),
-        idle=np.zeros(m, dtype=np.int64),
         objective_archive=empty_archive(parameters.archive, algorithm.genes),
         best_controller=np.zeros(WEIGHTS),
         best_coefficients=np.zeros(algorithm.genes),
@@ -338,9 +361,20 @@ def start_run(
         best_distance=np.array([np.iinfo(np.int64).max]),
         offspring=empty_offspring(n, WEIGHTS),
         objective_offspring=empty_offspring(m, algorithm.genes)._replace(parents=np.arange(m)),
+        known=np.full((n, 2), -1),
         walk_space=walk_space(maze.shape, parameters.steps),
     )
-    return state, settings, rng
+    is_papers = algorithm.content.keys() <= {"objectives", "rating"} and settings.rating in (UNRATED, GENOTYPIC_NOVELTY)
+    if is_papers and settings.admission == LOWEST_REPLACED:
+        return state, settings, None, rng
+    choices = Choices(
+        ways=_ways(maze) if is_weighed[WAY] else np.zeros((0, 0), dtype=np.int64),
+        threshold=np.array([parameters.threshold, 0.0]),
+        idle=np.zeros(m, dtype=np.int64),
+        paths=empty_paths(n if follows_paths else 0, maze.shape, parameters.steps),
+        repertoire=empty_repertoire(maze.shape if has_repertoire else (0, 0), WEIGHTS),
+    )
+    return state, settings, choices, rng
 
 
 @functools.lru_cache(maxsize=8)
@@ -374,20 +408,22 @@ def run_so_far(state: State, settings: Settings) -> Run:
     )
 
 
-def step_through(state: State, settings: Settings, rng: np.random.Generator) -> Iterator[Generation]:
+def step_through(
+    state: State, settings: Settings, choices: Choices | None, rng: np.random.Generator
+) -> Iterator[Generation]:
     judged = len(state.objectives) > 0
     rated = settings.rating not in (UNRATED, REDRAWN)
     novelty = next(iter(np.flatnonzero((settings.components == NOVELTY) & settings.weighed)), None)
     more = True
     while more:
-        more = advance(state, settings, rng)
+        more = advance(state, settings, choices, rng, 1, NEVER)
         yield Generation(
             **vars(run_so_far(state, settings)),
             genomes=state.genomes.copy(),
             endpoints=state.endpoints.copy(),
             distances=state.distances.copy(),
             components=state.components.copy(),
-            scaled=state.scaled.copy() if settings.scaling != RAW else None,
+            scaled=state.judges.components.copy() if settings.scaling != RAW else None,
             novelty=state.components[novelty].copy() if novelty is not None else None,
             fitness=state.fitness.copy() if judged else None,
             objectives=state.objectives.copy(),
@@ -397,7 +433,7 @@ def step_through(state: State, settings: Settings, rng: np.random.Generator) -> 
             objective_archive=archived(state.objective_archive),
             parents=state.offspring.parents.copy(),
             chosen_by=state.offspring.chosen_by.copy(),
-            repertoire=known(state.repertoire) if settings.breeding.pool == REPERTOIRE else None,
+            repertoire=known(choices.repertoire) if settings.breeding.pool == REPERTOIRE else None,
         )
 
 
@@ -405,35 +441,40 @@ def step_through(state: State, settings: Settings, rng: np.random.Generator) -> 
 
 
 @kernel
-def run_to_end(state: State, settings: Settings, rng: np.random.Generator, stop: np.ndarray) -> bool:
-    """Run to the end, or until another thread sets `stop`; returns whether the end was reached."""
-    while advance(state, settings, rng):
-        if stop[0]:
-            return False
-    return True
+def advance(
+    state: State,
+    settings: Settings,
+    choices: Choices | None,
+    rng: np.random.Generator,
+    most: int,
+    stop: np.ndarray,
+) -> bool:
+    """Breed and evaluate the next generations (the first is only evaluated), until the end, at most so many, or until
+    another thread sets `stop`; returns whether another follows."""
+    follows = True
+    for _ in range(most):
+        if state.number[0] >= 0:
+            breed_both(state, settings, choices, rng)
+        state.number[0] += 1
+        evaluate(state, settings, choices, rng)
+        keep_best(state)
+        if choices is not None and settings.breeding.pool == REPERTOIRE:
+            keep_latest(choices.repertoire, state.genomes, state.endpoints)
+        rate(state, settings, choices, rng)
+        is_last = state.number[0] + 1 >= settings.generations
+        # random search does not stop at a success: its result is the best of all solutions that it may draw
+        has_succeeded = state.best_distance[0] <= settings.success_distance and not settings.searches_at_random
+        follows = not (is_last or has_succeeded)
+        if not follows or stop[0]:
+            break
+    return follows
 
 
-@kernel
-def advance(state: State, settings: Settings, rng: np.random.Generator) -> bool:
-    """Breed and evaluate the next generation (the first is only evaluated); returns whether another follows."""
-    if state.number[0] >= 0:
-        breed_both(state, settings, rng)
-    state.number[0] += 1
-    evaluate(state, settings, rng)
-    keep_best(state)
-    if settings.breeding.pool == REPERTOIRE:
-        keep_latest(state.repertoire, state.genomes, state.endpoints)
-    rate(state, settings, rng)
-    is_last = state.number[0] + 1 >= settings.generations
-    # random search does not stop at a success: its result is the best of all solutions that it may draw
-    has_succeeded = state.best_distance[0] <= settings.success_distance and not settings.searches_at_random
-    return not (is_last or has_succeeded)
-
-
-@kernel
-def evaluate(state: State, settings: Settings, rng: np.random.Generator) -> None:
+@kernel(inline="always")
+def evaluate(state: State, settings: Settings, choices: Choices | None, rng: np.random.Generator) -> None:
     """Steps 1 to 3: end points, components, fitness."""
-    walk_all(settings.maze, state.genomes, settings.steps, state.walk_space, state.endpoints, state.paths)
+    paths = None if choices is None else choices.paths
+    walk_all(settings.maze, state.genomes, settings.steps, state.walk_space, state.endpoints, paths, state.known)
     goal_row, goal_column = settings.maze.goal
     for i in range(len(state.genomes)):
         state.distances[i] = abs(state.endpoints[i, 0] - goal_row) + abs(state.endpoints[i, 1] - goal_column)
@@ -445,20 +486,20 @@ def evaluate(state: State, settings: Settings, rng: np.random.Generator) -> None
         elif which == NOVELTY and settings.weighed[c]:
             rule = settings.admission
             score_cells(state.endpoints, state.archive, state.occupancy, settings.k, rule, values)
-            if rule != LOWEST_REPLACED:
-                admitted = settings.admitted
-                admit(state.endpoints, values, state.archive, state.occupancy, rule, admitted, state.threshold, rng)
-        elif which == PATH_RARITY and settings.weighed[c]:
-            score_paths(state.paths, values)
-        elif which == WAY and settings.weighed[c]:
+            if choices is not None and rule != LOWEST_REPLACED:
+                admitted, threshold = settings.admitted, choices.threshold
+                admit(state.endpoints, values, state.archive, state.occupancy, rule, admitted, threshold, rng)
+        elif choices is not None and which == PATH_RARITY and settings.weighed[c]:
+            score_paths(choices.paths, values)
+        elif choices is not None and which == WAY and settings.weighed[c]:
             for i in range(len(values)):
-                values[i] = inverse(settings.ways[state.endpoints[i, 0], state.endpoints[i, 1]])
-    if settings.scaling != RAW:
+                values[i] = inverse(choices.ways[state.endpoints[i, 0], state.endpoints[i, 1]])
+    if choices is not None and settings.scaling != RAW:
         for c in range(len(state.components)):
             if settings.weighed[c]:
-                scale(state.components[c], settings.scaling, state.scaled[c])
+                scale(state.components[c], settings.scaling, state.judges.components[c])
     if len(state.objectives) > 0:
-        best_scores(judges_of(state, settings), state.fitness, state.winners)
+        best_scores(state.judges, state.fitness, state.winners)
 
 
 @kernel
@@ -467,13 +508,7 @@ def inverse(distance: int) -> float:
     return 1.0 / distance if distance > 0 else 2.0
 
 
-@kernel
-def judges_of(state: State, settings: Settings) -> Judges:
-    """The objective functions, and what they judge."""
-    return Judges(state.objectives, state.scaled, settings.first_goal, state.endpoints, settings.maze.walls.shape)
-
-
-@kernel
+@kernel(inline="always")
 def keep_best(state: State) -> None:
     """Step 4: keep the first solution that is nearer to the goal than all before it."""
     for i in range(len(state.distances)):
@@ -486,37 +521,46 @@ def keep_best(state: State) -> None:
                     state.best_coefficients[c] = state.objectives[state.winners[i], c]
 
 
-@kernel
-def rate(state: State, settings: Settings, rng: np.random.Generator) -> None:
+@kernel(inline="always")
+def rate(state: State, settings: Settings, choices: Choices | None, rng: np.random.Generator) -> None:
     """Step 5: the fitness of objective functions."""
-    rating, fitness = settings.rating, state.objective_fitness
+    if settings.rating == GENOTYPIC_NOVELTY:
+        # Algorithm 2: the fitness of an objective function is the novelty of its genome
+        score_points(state.objectives, state.objective_archive, settings.k, False, state.objective_fitness)
+    elif choices is not None:
+        rate_by_solutions(state, settings, choices, rng)
+
+
+@kernel
+def rate_by_solutions(state: State, settings: Settings, choices: Choices, rng: np.random.Generator) -> None:
+    """The fitness of objective functions by a rating beyond the paper's."""
+    rating, judges, fitness = settings.rating, state.judges, state.objective_fitness
     if rating in (UNRATED, REDRAWN):
         return
-    judges = judges_of(state, settings)
-    if rating == GENOTYPIC_NOVELTY:
-        # Algorithm 2: the fitness of an objective function is the novelty of its genome
-        score_points(state.objectives, state.objective_archive, settings.k, False, fitness)
-    elif rating in (MUTUALISM, COMPETITION):
+    if rating in (MUTUALISM, COMPETITION):
         highest_scores(judges, 1 if rating == MUTUALISM else -1, fitness)
     elif rating in (DISCOVERY, SHUFFLED):
-        credit(state.paths.found, state.offspring.chosen_by, state.objective_offspring.parents, fitness)
+        credit(choices.paths.found, state.offspring.chosen_by, state.objective_offspring.parents, fitness)
         if rating == SHUFFLED:
             shuffle(fitness, rng)
     elif rating == PATIENCE:
-        wait(judges, state.idle, fitness)
+        wait(judges, choices.idle, fitness)
     else:
         correlations(judges, state.distances, rating == SPEARMAN, fitness)
 
 
-@kernel
-def breed_both(state: State, settings: Settings, rng: np.random.Generator) -> None:
+@kernel(inline="always")
+def breed_both(state: State, settings: Settings, choices: Choices | None, rng: np.random.Generator) -> None:
     """Step 6: the next generation of solutions and, if they evolve, of objective functions."""
     if settings.searches_at_random:
         draw_genomes(rng, settings.breeding.low, settings.breeding.high, state.genomes)
         return
-    judges, repertoire, rates = judges_of(state, settings), state.repertoire, settings.breeding
-    offspring = state.offspring
+    judges = None if choices is None else state.judges
+    repertoire = None if choices is None else choices.repertoire
+    rates, offspring = settings.breeding, state.offspring
     breed(state.genomes, state.fitness, judges, repertoire, rates, rng, offspring)
+    if rates.pool == GENERATION:
+        inherit(offspring, state.endpoints, state.known)
     if rates.judging == BEST_SCORE and len(state.objectives) > 0:
         for i in range(rates.elites, len(offspring.parents)):
             offspring.chosen_by[i] = state.winners[offspring.parents[i]]
@@ -524,8 +568,8 @@ def breed_both(state: State, settings: Settings, rng: np.random.Generator) -> No
     rating, rates = settings.rating, settings.objective_breeding
     if rating == REDRAWN:
         draw_genomes(rng, rates.low, rates.high, state.objectives)
-    elif rating == PATIENCE:
-        give_up(state.objectives, state.idle, state.objective_fitness, settings.patience, rng)
+    elif choices is not None and rating == PATIENCE:
+        give_up(state.objectives, choices.idle, state.objective_fitness, settings.patience, rng)
     elif rating != UNRATED:
         offspring = state.objective_offspring
         breed(state.objectives, state.objective_fitness, judges, repertoire, rates, rng, offspring)

@@ -185,7 +185,7 @@ def best_scores(judges: Judges, fitness: np.ndarray, winners: np.ndarray) -> Non
     """
     objectives = judges.objectives
     contenders = np.empty(len(objectives), dtype=np.int64)
-    m = 0
+    m = np.int64(0)
     for j in range(len(objectives)):
         if j >= judges.first_goal or not _is_dominated(objectives, j, contenders, m):
             contenders[m] = j

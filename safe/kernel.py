@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import glob
 import hashlib
 import os
@@ -19,16 +20,22 @@ from tqdm import tqdm
 _PACKAGE = Path(__file__).parent
 
 
-def kernel(function: Callable) -> Callable:
+def kernel(function: Callable | None = None, *, inline: str = "never") -> Callable:
     """Compile `function` with numba: no Python inside, GIL released, kept on disk, IEEE arithmetic.
 
     `fastmath` stays off: it lets a compiler reorder sums, so that a run would differ between machines.
     Division is numpy's, which raises no error: with Python's, numba would count references in inner loops.
+    What is compiled in one place of a program with many arrays had better be inlined ("always"): by itself, it would be
+    compiled for calls from Python, too, and optimised once more in each function that leads to it.
+    An argument that is a literal, or a variable set to one, has a type of its own, for which numba compiles a function
+    once more; `np.int64(0)` has not.
     With NUMBA_DISABLE_JIT=1 in the environment functions stay plain Python, for a debugger to step through.
     """
+    if function is None:
+        return functools.partial(kernel, inline=inline)
     if numba.config.DISABLE_JIT:
         return function
-    compiled = numba.njit(nogil=True, error_model="numpy")(function)
+    compiled = numba.njit(nogil=True, error_model="numpy", inline=inline)(function)
     try:
         compiled._cache = _KernelCache(function)  # as numba's own `cache=True` does with a cache of its own
     except RuntimeError:  # no folder for it is writable

@@ -128,7 +128,7 @@ def look_around(
         left, right = _cell_along(grid, 1, point[1] - margin), _cell_along(grid, 1, point[1] + margin)
         is_all = (bottom - top + 1) * (right - left + 1) == rows * columns
         limit = np.inf if is_all else _along_axis(reach, taxicab)
-        found = _measure(point, members, in_cells, size, taxicab, limit, distances, 0)
+        found = _measure(point, members, in_cells, size, taxicab, limit, distances, np.int64(0))
         for row in range(top, bottom + 1):
             start, end = ends[row * columns + left], ends[row * columns + right + 1]
             found = _measure(point, members, start, end, taxicab, limit, distances, found)

@@ -212,8 +212,6 @@ def score_cells(
             replace_lowest(cells[i], scores[i], archive, occupancy)
             size = archive.counts[0]
             threshold = threshold_of(archive)
-    if admission == RESCORED:
-        sort_heap(archive)
     for i in range(n):
         occupancy[RINGS + cells[i, 0], RINGS + cells[i, 1]] -= 1
 
@@ -225,7 +223,9 @@ def replace_lowest(cell: np.ndarray, score: float, archive: ArchiveArrays, occup
     if place < archive.counts[0]:
         occupancy[RINGS + int(archive.points[0, place]), RINGS + int(archive.points[1, place])] -= 1
     occupancy[RINGS + cell[0], RINGS + cell[1]] += 1
-    enter(archive, place, cell, score)
+    archive.points[0, place] = cell[0]
+    archive.points[1, place] = cell[1]
+    enter(archive, place, score)
 
 
 @kernel
@@ -249,6 +249,7 @@ def admit(
     if capacity == 0:
         return
     if admission >= AFTER_SCORING:
+        sort_heap(archive)  # of which all scores may be new
         for i in range(n):
             is_held = admission == DISTINCT and occupancy[RINGS + cells[i, 0], RINGS + cells[i, 1]] > 0
             if scores[i] > threshold_of(archive) and not is_held:
@@ -352,11 +353,11 @@ def score_points(points: np.ndarray, archive: ArchiveArrays, k: int, taxicab: bo
             place = vacate(archive)
             if place < counts[0]:
                 members[0, places[place]] = np.nan  # near to nothing
-            enter(archive, place, points[i], scores[i])
+            enter(archive, place, scores[i])
             threshold = threshold_of(archive)
             places[place] = size
             for axis in range(dimensions):
-                members[axis, size] = points[i, axis]
+                archive.points[axis, place] = members[axis, size] = points[i, axis]
             size += 1
             if size - in_cells == most_newcomers:
                 size = in_cells = sort_into_cells(grid, points, archive.points, counts[0], members, ends, places)
@@ -379,11 +380,9 @@ def vacate(archive: ArchiveArrays) -> int:
 
 
 @kernel
-def enter(archive: ArchiveArrays, place: int, point: np.ndarray, score: float) -> None:
-    """Let a point into the archive, at the place that `vacate` returned."""
-    points, scores, entry, heap, counts = archive
-    for axis in range(len(point)):
-        points[axis, place] = point[axis]
+def enter(archive: ArchiveArrays, place: int, score: float) -> None:
+    """Let the point at the place that `vacate` returned into the archive."""
+    _, scores, entry, heap, counts = archive
     scores[place] = score
     entry[place] = counts[1]
     counts[1] += 1
@@ -394,7 +393,7 @@ def enter(archive: ArchiveArrays, place: int, point: np.ndarray, score: float) -
             node = (node - 1) // 2
         counts[0] += 1
     else:  # it was that of the lowest: the point sinks from the top
-        node = 0
+        node = np.int64(0)
         child = _lower_child(archive, node)
         while child >= 0 and scores[heap[child]] <= score:  # it is the youngest of equals
             heap[node] = heap[child]

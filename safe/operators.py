@@ -55,11 +55,13 @@ class Offspring(NamedTuple):
     genomes: np.ndarray  # float64, (individuals, genes)
     parents: np.ndarray  # int64, (individuals,): of which each was a copy before crossover and mutation
     chosen_by: np.ndarray  # int64, (individuals,): the objective function that was drawn to choose it, or -1
+    is_copy: np.ndarray  # bool, (individuals,): neither crossover nor mutation has changed it
 
 
 def empty_offspring(individuals: int, genes: int) -> Offspring:
     """Room for offspring; nobody has parents yet."""
-    return Offspring(np.zeros((individuals, genes)), np.full(individuals, -1), np.full(individuals, -1))
+    nobody = np.full(individuals, -1)
+    return Offspring(np.zeros((individuals, genes)), nobody, nobody.copy(), np.zeros(individuals, dtype=bool))
 
 
 # Compiled functions
@@ -113,13 +115,15 @@ def judged_tournament(judges: Judges, n: int, size: int, rng: np.random.Generato
 
 @kernel
 def choose(
-    judges: Judges, n: int, repertoire: Repertoire, rates: Breeding, rng: np.random.Generator
+    fitness: np.ndarray, judges: Judges, repertoire: Repertoire, rates: Breeding, rng: np.random.Generator
 ) -> tuple[int, int, bool]:
-    """A parent by a choice beyond the paper: its index, among the n of the generation or in the repertoire; that of the
-    objective function that was drawn to choose it, or -1; and whether it is in the repertoire."""
-    size = repertoire.size[0]
-    if rates.judging == BEST_SCORE:  # nobody judges
-        return draw_index(rng, size), -1, True
+    """A parent by any choice: its index, in the generation or in the repertoire; that of the objective function that
+    was drawn to choose it, or -1; and whether it is in the repertoire."""
+    n, size = len(fitness), repertoire.size[0]
+    if rates.judging == BEST_SCORE:
+        if rates.pool == GENERATION:
+            return tournament(fitness, rates.tournament, rng), -1, False
+        return draw_index(rng, size), -1, True  # nobody judges
     known = Judges(judges.objectives, judges.components, judges.first_goal, repertoire.endpoints, judges.shape)
     if rates.judging == DRAWN_JUDGE:
         if rates.pool == REPERTOIRE:
@@ -152,45 +156,56 @@ def mutate(genome: np.ndarray, low: float, high: float, rng: np.random.Generator
 def breed(
     genomes: np.ndarray,
     fitness: np.ndarray,
-    judges: Judges,
-    repertoire: Repertoire,
+    judges: Judges | None,
+    repertoire: Repertoire | None,
     rates: Breeding,
     rng: np.random.Generator,
     offspring: Offspring,
 ) -> None:
     """Write the next generation into `offspring`: first the elites, the fittest in front, then the pairs.
 
-    Only drawn objective functions need the `judges`.
+    Only choices beyond the paper need the `judges` and the `repertoire`; by the paper's rules they are None.
     """
-    bred, parents, chosen_by = offspring
+    bred, parents, chosen_by, is_copy = offspring
     is_elite = np.zeros(len(genomes), dtype=np.bool_)
     scores = np.empty(len(genomes)) if rates.judging != BEST_SCORE else fitness
     for place in range(rates.elites):
-        if rates.judging != BEST_SCORE:
+        if judges is not None and rates.judging != BEST_SCORE:
             score_all(judges, draw_index(rng, len(judges.objectives)), scores)
-        fittest = -1
+        fittest = np.int64(-1)
         for i in range(len(genomes)):
             if not is_elite[i] and (fittest < 0 or scores[i] > scores[fittest]):
                 fittest = i
         is_elite[fittest] = True
         _copy(genomes, fittest, bred, place)
-        parents[place], chosen_by[place] = fittest, -1
+        parents[place], chosen_by[place], is_copy[place] = fittest, -1, True
     for place in range(rates.elites, len(genomes), 2):
         for child in range(place, place + 2):
-            if rates.judging == BEST_SCORE and rates.pool == GENERATION:
-                parent, judge, is_known = tournament(fitness, rates.tournament, rng), -1, False
+            source, judge = genomes, -1
+            if judges is None:
+                parent = tournament(fitness, rates.tournament, rng)
             else:
-                parent, judge, is_known = choose(judges, len(genomes), repertoire, rates, rng)
-            if is_known:
-                _copy(repertoire.genomes, parent, bred, child)
-            else:
-                _copy(genomes, parent, bred, child)
-            parents[child], chosen_by[child] = parent, judge
+                parent, judge, is_known = choose(fitness, judges, repertoire, rates, rng)
+                if is_known:
+                    source = repertoire.genomes
+            _copy(source, parent, bred, child)
+            parents[child], chosen_by[child], is_copy[child] = parent, judge, True
         if rng.random() < rates.crossover:
             crossover(bred[place], bred[place + 1], rng)
+            if parents[place] != parents[place + 1]:
+                is_copy[place] = is_copy[place + 1] = False
         for child in range(place, place + 2):
             if rng.random() < rates.mutation:
                 mutate(bred[child], rates.low, rates.high, rng)
+                is_copy[child] = False
+
+
+@kernel
+def inherit(offspring: Offspring, endpoints: np.ndarray, known: np.ndarray) -> None:
+    """Put the end points of copies, which are those of their parents, into `known`, and -1 for others."""
+    for i in range(len(known)):
+        for axis in range(2):
+            known[i, axis] = endpoints[offspring.parents[i], axis] if offspring.is_copy[i] else -1
 
 
 @kernel

@@ -21,7 +21,7 @@ from safe import checks
 from safe.kernel import index, kernel
 from safe.maze import SENSORS, Maze, MazeArrays
 from safe.maze_files import load_maze
-from safe.paths import Paths, empty_paths, keep_path
+from safe.paths import Paths, keep_path
 
 READINGS = len(SENSORS)  # s_1..s_8
 WEIGHTS = 2 * READINGS  # p_1..p_16
@@ -98,7 +98,7 @@ def endpoints(maze: Maze | str, controllers: np.ndarray, steps: int = STEPS) -> 
     controllers = checks.array("controllers", controllers, (None, WEIGHTS), -1, 1)
     steps = checks.integer("steps", steps, 0, checks.MOST)
     ends = np.empty((len(controllers), 2), dtype=np.int64)
-    walk_all(maze.arrays, controllers, steps, walk_space(maze.shape, steps), ends, empty_paths(0, maze.shape, steps))
+    walk_all(maze.arrays, controllers, steps, walk_space(maze.shape, steps), ends)
     return ends
 
 
@@ -194,16 +194,26 @@ def walk_all(
     steps: int,
     space: WalkSpace,
     ends: np.ndarray,
-    paths: Paths,
+    paths: Paths | None = None,
+    known: np.ndarray | None = None,
 ) -> None:
-    """Put the end of each controller's walk into `ends`, and count its path if there is room for it in `paths`."""
+    """Put the end of each controller's walk into `ends`, and count its path if there is room for it in `paths`.
+
+    `known` holds the ends that are known before, which need no walk unless paths count, and -1 for others.
+    """
     trail, stood_at, clock = space
-    keeping = len(paths.lengths) > 0
+    keeping = False
+    if paths is not None:
+        keeping = len(paths.lengths) > 0
     for i in range(len(controllers)):
+        if known is not None and known[i, 0] >= 0 and not keeping:
+            ends[i, 0] = known[i, 0]
+            ends[i, 1] = known[i, 1]
+            continue
         length, loop_start = walk(maze, controllers[i], steps, trail, stood_at, clock[0])
         clock[0] += steps + 1
         cell = cell_at_step(steps, length, loop_start)
         ends[i, 0] = trail[cell, 0]
         ends[i, 1] = trail[cell, 1]
-        if keeping:
+        if paths is not None and keeping:
             keep_path(paths, i, trail, length, maze.walls.shape[1])

@@ -33,7 +33,7 @@ KERNELS = {
 
 
 def test_there_are_kernels():
-    assert {"safe.robot.walk", "safe.evolution.run_to_end", "safe.results.mechanism.moments"} <= set(KERNELS)
+    assert {"safe.robot.walk", "safe.evolution.advance", "safe.results.mechanism.moments"} <= set(KERNELS)
 
 
 @pytest.mark.parametrize("kernel", KERNELS.values(), ids=KERNELS)

@@ -14,6 +14,7 @@ from safe.operators import (
     crossover,
     draw_genomes,
     empty_offspring,
+    inherit,
     judged_tournament,
     mutate,
     tournament,
@@ -30,12 +31,17 @@ def generator(seed):
     return np.random.Generator(np.random.SFC64(seed))
 
 
-def bred(genomes, fitness, seed, judges=NOBODY, **rates):
+def bred(*arguments, **more):
+    return offspring_of(*arguments, **more).genomes
+
+
+def offspring_of(genomes, fitness, seed, judges=None, **rates):
     offspring = empty_offspring(*genomes.shape)
     rates = {"tournament": 5, "elites": 2, "crossover": 0.8, "mutation": 0.4, "low": -1.0, "high": 1.0, **rates}
     fitness = np.asarray(fitness, dtype=np.float64)
-    breed(genomes, fitness, judges, NOTHING_KNOWN, Breeding(**rates), generator(seed), offspring)
-    return offspring.genomes
+    repertoire = None if judges is None else NOTHING_KNOWN
+    breed(genomes, fitness, judges, repertoire, Breeding(**rates), generator(seed), offspring)
+    return offspring
 
 
 def assert_rate(count, n, probability):
@@ -49,9 +55,10 @@ def test_breeding_is_that_of_the_oracle(seed, half, size, elite_pairs, length):
     parameters = Parameters(population=n, objectives=n, tournament=size, elites=2 * elite_pairs)
     genomes = generator(seed).random((n, length))
     fitness = generator(seed + 1).integers(0, 4, n).astype(float)  # with ties
-    offspring = bred(genomes, fitness, seed, tournament=size, elites=2 * elite_pairs)
     expected, _ = oracle.breed(genomes.tolist(), fitness, parameters, -1, 1, generator(seed))
-    assert offspring.tolist() == expected
+    for judges in (None, NOBODY):
+        offspring = bred(genomes, fitness, seed, judges, tournament=size, elites=2 * elite_pairs)
+        assert offspring.tolist() == expected
 
 
 @given(st.integers(0, 2**32), st.integers(1, 10), st.integers(1, 6), st.integers(0, 3), st.integers(1, 8))
@@ -94,6 +101,17 @@ def test_without_variation_offspring_are_copies():
     genomes = generator(1).random((10, 16))
     offspring = bred(genomes, range(10), seed=2, crossover=0.0, mutation=0.0)
     assert {tuple(child) for child in offspring} <= {tuple(parent) for parent in genomes}
+
+
+@given(st.integers(0, 2**32), st.sampled_from([None, NOBODY]), st.sampled_from([0.0, 0.8]))
+def test_a_copy_is_known_as_one_and_inherits_its_end_point(seed, judges, rate):
+    genomes = np.repeat(np.arange(10.0)[:, np.newaxis], 16, axis=1)  # a crossover of different parents changes both
+    offspring = offspring_of(genomes, np.arange(10) % 3, seed, judges, crossover=rate)
+    is_copy = (offspring.genomes == genomes[offspring.parents]).all(axis=1)
+    assert offspring.is_copy.tolist() == is_copy.tolist()
+    endpoints, known = generator(seed).integers(0, 9, (10, 2)), np.zeros((10, 2), dtype=np.int64)
+    inherit(offspring, endpoints, known)
+    assert (known == np.where(is_copy[:, np.newaxis], endpoints[offspring.parents], -1)).all()
 
 
 def test_crossover_conserves_the_genes_at_each_place_and_cuts_uniformly():

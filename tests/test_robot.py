@@ -5,6 +5,8 @@ from hypothesis import strategies as st
 
 import safe
 from safe import Maze
+from safe.paths import empty_paths
+from safe.robot import walk_all, walk_space
 from tests.helpers import oracle
 from tests.helpers.reference import reference_endpoints
 from tests.helpers.strategies import controllers, mazes
@@ -112,3 +114,13 @@ def test_bad_steps(steps):
 
 def test_no_robots_at_all():
     assert safe.endpoints("maze1", np.empty((0, 16))).shape == (0, 2)
+
+
+def test_a_known_end_needs_no_walk_unless_paths_count():
+    maze, known = safe.load_maze("maze1"), np.array([[-1, -1], [1, 2]])
+    true = safe.endpoints(maze, [RIGHT_DOWN] * 2)
+    for robots, expected in [(0, [true[0], known[1]]), (2, true)]:
+        ends = np.empty((2, 2), dtype=np.int64)
+        paths = empty_paths(robots, maze.shape, 300)
+        walk_all(maze.arrays, np.array([RIGHT_DOWN] * 2), 300, walk_space(maze.shape, 300), ends, paths, known)
+        assert (ends == expected).all()
