@@ -1,4 +1,4 @@
-"""Figures of notebooks on the pages of chapters, and figures whose parts lead to the playground.
+"""Figures of notebooks: on the pages of chapters, panel by panel on narrow pages, and with links to the playground.
 
 A chapter shows a figure of a notebook where its argument needs it, with a caption and a name of its own::
 
@@ -10,6 +10,9 @@ A chapter shows a figure of a notebook where its argument needs it, with a capti
 
 A figure that a notebook shows by `safe.companion.notebook.show_figure` has links, which travel beside its image as
 metadata of the output. On the page each is an area over its part of the image. Print has the image alone.
+
+Where the panels of a figure are travels there, too. A narrow page shows the same image once for each panel and each
+entry of the legend, cut to it, one below the other (see `book.css`).
 """
 
 from __future__ import annotations
@@ -33,6 +36,14 @@ from playground import PAGE as PLAYGROUND
 
 IMAGES = EXECUTED / "figures"
 KINDS = {"image/svg+xml": "svg", "application/pdf": "pdf"}  # for pages, and for print
+BOX = (
+    "left",
+    "top",
+    "width",
+    "height",
+    "across",
+    "down",
+)  # in book.css: in fractions of an image, and its size in points
 
 
 class Shown(SphinxDirective):
@@ -54,7 +65,9 @@ class Shown(SphinxDirective):
 
     def _figure(self, name: str, cell: dict, settings: dict) -> nodes.figure:
         IMAGES.mkdir(exist_ok=True)
+        layout = {}
         for output in cell["outputs"]:
+            layout |= _metadata(output).get("layout", {})
             for kind, suffix in KINDS.items():
                 if kind in output.get("data", {}):
                     content = "".join(output["data"][kind])
@@ -63,6 +76,7 @@ class Shown(SphinxDirective):
                     )
         image = nodes.image(uri=f"/{IMAGES.relative_to(ROOT).as_posix()}/{name}.*", alt=settings.get("alt", ""))
         image["classes"] = settings.get("classes", "").split()
+        image["layout"] = layout
         caption = nodes.caption()
         self.state.nested_parse(self.content, self.content_offset, caption)
         (paragraph,) = caption.children
@@ -71,11 +85,11 @@ class Shown(SphinxDirective):
         figure = nodes.figure("", image, caption, classes=["shown"])
         self.set_source_info(figure)
         self.add_name(figure)
-        return [figure]
+        return figure
 
 
-class FigureLinks(SphinxTransform):
-    """Keep the links of every cell that has some, for `LinkedFigures`."""
+class FigureMetadata(SphinxTransform):
+    """Keep what the images of every cell carry, for `ArrangedFigures`."""
 
     default_priority = 400
 
@@ -86,33 +100,65 @@ class FigureLinks(SphinxTransform):
             return
         executed = json.loads(copy.read_text(encoding="utf-8"))["cells"]
         for cell in cells:
-            for output in executed[cell["cell_index"]]["outputs"]:
-                links = output.get("metadata", {}).get("image/svg+xml", {}).get("links")
-                if links:
-                    cell["figure_links"] = links
+            outputs = executed[cell["cell_index"]]["outputs"]
+            cell["images"] = [_metadata(output) for output in outputs if "image/svg+xml" in output.get("data", {})]
 
 
-class LinkedFigures(SphinxPostTransform):
-    """On the page the image gets an area for each link."""
+class ArrangedFigures(SphinxPostTransform):
+    """On the page an image gets an area for each of its links, and is followed by its panels."""
 
     default_priority = 700
     formats = ("html",)
 
     def run(self, **kwargs: object) -> None:
+        for cell in self.document.findall(lambda node: isinstance(node, nodes.container) and node.get("images")):
+            for image, carried in zip(list(cell.findall(nodes.image)), cell["images"], strict=True):
+                image["layout"] = carried.get("layout", {})
+                if "links" in carried:
+                    image.replace_self(self._linked(image, carried["links"]))
+        for image in list(self.document.findall(lambda node: isinstance(node, nodes.image) and "layout" in node)):
+            layout = image.attributes.pop("layout")
+            if len(layout.get("panels", [])) > 1:
+                image["classes"].append("whole")
+                image.parent.insert(image.parent.index(image) + 1, _panels(image, layout))
+
+    def _linked(self, image: nodes.image, links: list) -> nodes.container:
         playground = self.app.builder.get_relative_uri(self.env.docname, PLAYGROUND)
-        for cell in self.document.findall(lambda node: isinstance(node, nodes.container) and "figure_links" in node):
-            (image,) = cell.findall(nodes.image)
-            areas = "".join(
-                f'<a href="{html.escape(f"{playground}#{address}")}" title="{html.escape(text)}" style="left: {left}%; '
-                f'top: {top}%; width: {width}%; height: {height}%"></a>'
-                for text, address, left, top, width, height in cell["figure_links"]
-            )
-            linked = nodes.container("", image.deepcopy(), nodes.raw("", areas, format="html"), classes=["linked"])
-            image.replace_self(linked)
+        areas = "".join(
+            f'<a href="{html.escape(f"{playground}#{address}")}" title="{html.escape(text)}" style="left: {left}%; '
+            f'top: {top}%; width: {width}%; height: {height}%"></a>'
+            for text, address, left, top, width, height in links
+        )
+        return nodes.container("", image.deepcopy(), nodes.raw("", areas, format="html"), classes=["linked"])
+
+
+def _panels(image: nodes.image, layout: dict) -> list[nodes.Node]:
+    """The panels of an image, and below them the entries of its legend; for readers of alternative text, one image."""
+    alt = html.escape(image.get("alt", ""), quote=True)
+    panels = [_raw(f'<div class="panels" role="img" aria-label="{alt}">')]
+    for kind, boxes in [*(("panel", boxes) for boxes in layout["panels"]), ("entries", layout["entries"])]:
+        cuts = [part for box in boxes for part in _cut(image, box, layout["size"])]
+        panels += [_raw(f'<div class="{kind}">'), *cuts, _raw("</div>")]
+    return [*panels, _raw("</div>")]
+
+
+def _cut(image: nodes.image, box: list[float], size: list[float]) -> list[nodes.Node]:
+    """An image cut to a box (see `safe.results.figures.layout`)."""
+    cut = nodes.image(uri=image["uri"], candidates=image.get("candidates", {}), alt="", loading="lazy")
+    style = "; ".join(f"--{name}: {value}" for name, value in zip(BOX, [*box, *size], strict=True))
+    return [_raw(f'<span class="cut" style="{style}">'), cut, _raw("</span>")]
+
+
+def _raw(text: str) -> nodes.raw:
+    return nodes.raw("", text, format="html")
+
+
+def _metadata(output: dict) -> dict:
+    return output.get("metadata", {}).get("image/svg+xml", {})
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:
     app.add_directive("shown", Shown)
-    app.add_transform(FigureLinks)
-    app.add_post_transform(LinkedFigures)
+    app.add_transform(FigureMetadata)
+    app.add_post_transform(ArrangedFigures)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -4,6 +4,7 @@ A notebook cell whose metadata holds `table: {name, caption, stub, class}` shows
 itself. Here that CSV becomes a table of the document, with `stub` columns of headings (1 by default), and with a class
 for its looks beside `results`. It can be referred to by its name, and is a table in print as well. Nothing in it is
 read as markup. Only the page shows the links of its rows to the playground (see `safe.companion.notebook.show_table`).
+A page that is too narrow for a table shows a card for each row, on which every cell has its heading beside it.
 """
 
 from __future__ import annotations
@@ -18,12 +19,15 @@ from sphinx.errors import ExtensionError
 from sphinx.transforms import SphinxTransform
 from sphinx.transforms.post_transforms import SphinxPostTransform
 from sphinx.util.typing import ExtensionMetadata
+from sphinx.writers.html5 import HTML5Translator
 
 from executed import EXECUTED, ROOT
 from playground import PAGE as PLAYGROUND
 
 TABLES = EXECUTED / "tables"
 WIDEST = 30  # characters of a column that count for its width in print
+LONG = 32  # characters from which on a cell is text, which needs room
+PHONE = 50  # characters that stand side by side on a phone, with 2 between columns
 
 
 class ResultTables(SphinxTransform):
@@ -73,6 +77,43 @@ class ResultTables(SphinxTransform):
             refdoc=self.env.docname,
         )
         return [table, nodes.paragraph("", "", link, classes=["results-download"])]
+
+
+class LabelledTables(SphinxPostTransform):
+    """On the page every cell knows its heading, for cards, and columns of texts are marked.
+
+    The cells with their headings are what `_visit_entry` writes.
+    """
+
+    default_priority = 710  # after the links are there
+    formats = ("html",)
+
+    def run(self, **kwargs: object) -> None:
+        for table in self.document.findall(nodes.table):
+            if "results" not in table["classes"]:
+                continue
+            head, *rows = [[*row.children] for row in table.findall(nodes.row)]
+            headings = [cell.astext() for cell in head]
+            widest = [max((len(cell.astext()) for cell in column), default=0) for column in zip(*rows, strict=True)]
+            words = [max(map(len, heading.split()), default=0) for heading in headings]
+            if sum(max(min(width, LONG), word) + 2 for width, word in zip(widest, words, strict=False)) > PHONE:
+                table["classes"].append("cards")
+            for row in rows:
+                for heading, width, cell in zip(headings, widest, row, strict=True):
+                    cell["heading"] = heading
+                    if width >= LONG:
+                        cell["classes"].append("text")
+
+
+def _visit_entry(self: HTML5Translator, node: nodes.entry) -> None:
+    type(self).visit_entry(self, node)
+    if "heading" in node:
+        tag = self.body.pop()  # <td> or <th>, perhaps with attributes
+        self.body.append(f'{tag[:3]} data-label="{self.attval(node["heading"])}"{tag[3:]}')
+
+
+def _depart_entry(self: HTML5Translator, node: nodes.entry) -> None:
+    type(self).depart_entry(self, node)
 
 
 class LinkedTables(SphinxPostTransform):
@@ -135,5 +176,7 @@ def _cell(text: str) -> nodes.entry:
 def setup(app: Sphinx) -> ExtensionMetadata:
     app.add_transform(ResultTables)
     app.add_post_transform(LinkedTables)
+    app.add_post_transform(LabelledTables)
+    app.add_node(nodes.entry, override=True, html=(_visit_entry, _depart_entry))
     app.add_post_transform(PrintedTables)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,12 +1,15 @@
-"""Adjustments of the theme: buttons that lead to the repository, if there is one, and no script without need."""
+"""Adjustments of the theme: buttons for the repository, if there is one, no script without need, no code cut off."""
 
 from __future__ import annotations
 
+import html
 import re
 
 from sphinx.application import Sphinx
 from sphinx.util.typing import ExtensionMetadata
 
+CODE = re.compile(r'(<div class="highlight"><pre>)(.*?)(</pre>)', re.DOTALL)
+WIDE = 80  # characters; longer lines of code may need to be wrapped
 LAUNCH = {"binderhub_url": "https://mybinder.org", "colab_url": "https://colab.research.google.com"}
 
 
@@ -39,7 +42,27 @@ def _add_filter(app: Sphinx, pagename: str, templatename: str, context: dict, do
 
     The theme loads a font of icons, and a script of 1.5 MB that puts drawings in their place: the font is enough.
     """
-    context["without_drawn_icons"] = lambda html: re.sub(r"<script[^>]*/fontawesome/[^>]*></script>", "", html)
+    context["without_drawn_icons"] = lambda text: re.sub(r"<script[^>]*/fontawesome/[^>]*></script>", "", text)
+
+
+def _wrap_code(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
+    """Let lines of code, where they are long, continue below themselves, indented (see `book.css`)."""
+
+    def wrapped(code: re.Match) -> str:
+        opening, text, closing = code.groups()
+        lines = text.splitlines(keepends=True)
+        plain = [html.unescape(re.sub("<.*?>", "", line)) for line in lines]
+        if max(map(len, plain), default=0) <= WIDE:
+            return code.group()
+        indents = [len(line) - len(line.lstrip()) for line in plain]
+        spans = (
+            f'<span class="line" style="--indent: {indent}ch">{line}</span>'
+            for line, indent in zip(lines, indents, strict=True)
+        )
+        return opening + "".join(spans) + closing
+
+    if "body" in context:
+        context["body"] = CODE.sub(wrapped, context["body"])
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:
@@ -47,4 +70,5 @@ def setup(app: Sphinx) -> ExtensionMetadata:
     app.connect("html-page-context", _remove_thebe, priority=900)
     app.connect("html-page-context", _remove_address, priority=900)
     app.connect("html-page-context", _add_filter)
+    app.connect("html-page-context", _wrap_code)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -8,7 +8,7 @@ papermill, and the notebook's folder in Jupyter.
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 
@@ -26,9 +26,10 @@ from safe.results import figures
 
 
 def prepare() -> None:
-    """Give figures the style of the book, and let every table carry a copy of itself as CSV, for the book to offer.
+    """Give figures the style of the book, and let tables and figures carry what the book needs besides.
 
-    No name in a table is read as mathematics.
+    A table has a copy of itself as CSV, and a figure says where its panels are (see `safe.results.figures.layout`). No
+    name in a table is read as mathematics.
     """
     figures.use_style()
     pd.set_option("display.html.use_mathjax", False)
@@ -37,6 +38,14 @@ def prepare() -> None:
     if shell is not None:
         formatter = shell.display_formatter.mimebundle_formatter
         formatter.for_type(pd.DataFrame, lambda table, **_: {"text/csv": table.to_csv(lineterminator="\n")})
+        formatter = shell.display_formatter.formatters["image/svg+xml"]
+        draw = formatter.lookup_by_type(Figure)
+        formatter.for_type(Figure, lambda figure: _with_layout(figure, draw))
+
+
+def _with_layout(figure: Figure, draw: Callable[[Figure], str]) -> tuple[str, dict]:
+    layout = figures.layout(figure)  # before it is drawn, since it fixes where everything is
+    return draw(figure), {"layout": layout}
 
 
 def show_table(table: pd.DataFrame, links: Sequence[Sequence[tuple[str, str]]], heading: str = "replay") -> None:
@@ -72,14 +81,11 @@ def show_figure(figure: Figure, links: Sequence[tuple[Artist, str, str]]) -> Non
     links : sequence of (artist, text, address)
         What is linked by the rectangle that it fills, what the link says, and an address in the playground.
     """
-    figure.draw_without_rendering()
-    shown = figure.get_tightbbox().padded(plt.rcParams["savefig.pad_inches"])  # to which an image is cut
+    image = figures.image_box(figure)
     areas = []
     for artist, text, address in links:
-        box = artist.get_window_extent().transformed(figure.dpi_scale_trans.inverted())
-        left, top = (box.x0 - shown.x0) / shown.width, (shown.y1 - box.y1) / shown.height
-        parts = left, top, box.width / shown.width, box.height / shown.height
-        areas.append([text, address, *(round(100 * part, 2) for part in parts)])
+        box = figures.fractions(figure, image, artist.get_window_extent())
+        areas.append([text, address, *(round(100 * part, 2) for part in box)])
     display(figure, metadata={"image/svg+xml": {"links": areas}})
     plt.close(figure)
 

@@ -1,10 +1,12 @@
 """Every page in a browser. Skipped without Chromium."""
 
+import io
 import re
 import time
 from pathlib import Path
 from urllib.parse import unquote, urljoin, urlparse
 
+import matplotlib.pyplot as plt
 import pytest
 
 from tests.helpers.browser import DESKTOP, PHONE, complaints_of, needs_browser
@@ -16,6 +18,27 @@ def names(html):
 
 
 TABS = 8  # pages that load side by side
+CUT_CODE = """() => {
+  for (const details of document.querySelectorAll("details")) details.open = true;
+  return [...document.querySelectorAll(".bd-article pre")]
+    .filter((code) => code.scrollWidth > code.clientWidth)
+    .map((code) => code.textContent.slice(0, 60));
+}"""
+# of the images and parts of images that are shown: how large they are, compared with how they were drawn
+SCALES = """() => {
+  for (const details of document.querySelectorAll("details")) details.open = true;
+  const drawn = (cut) => {
+    const [width, across] = ["--width", "--across"].map((name) => Number(cut.style.getPropertyValue(name)));
+    return (width * across * 96) / 72;
+  };
+  const shown = (element) => element.getClientRects().length > 0;
+  return [
+    ...[...document.querySelectorAll(".cut")].map((cut) => [cut, drawn(cut)]),
+    ...[...document.querySelectorAll("img.wide")].map((image) => [image, image.naturalWidth]),
+  ].filter(([element]) => shown(element))
+    .map(([element, width]) => element.getBoundingClientRect().width / width);
+}"""
+SMALLEST, DRAWN = 9, 11 * 96 / 72  # pixels: what can be read, and the size of letters in figures
 QUIET = 0.5  # seconds without a request, after which pages have loaded all they want
 
 
@@ -48,7 +71,42 @@ def test_every_page_without_an_error_a_request_elsewhere_or_a_scroll_bar(site, b
                 wider = tab.evaluate("document.documentElement.scrollWidth - window.innerWidth")
                 assert complaints_of_tab == [], (name, scheme)
                 assert wider <= 0, f"{name} is {wider} pixels wider than the window ({scheme})"
+            if viewport == DESKTOP:
+                assert tab.evaluate(CUT_CODE) == [], name
+            else:
+                assert all(scale * DRAWN >= SMALLEST for scale in tab.evaluate(SCALES)), name
     context.close()
+
+
+@needs_browser
+def test_a_phone_shows_the_panels_of_a_figure_one_below_the_other(site, browser):
+    page = browser.new_page(viewport=PHONE)
+    page.goto(urljoin(site, "notebooks/table2-success.html"))
+    figure = page.locator("figure", has=page.locator(".panels")).first
+    whole, panels = figure.locator("img.whole"), figure.locator(".panel")
+    assert not whole.is_visible()
+    assert figure.get_by_role("img", name=whole.get_attribute("alt")).count() == 1
+    first, second = (panels.nth(number).bounding_box() for number in range(2))
+    assert panels.count() == 2
+    assert first["y"] + first["height"] <= second["y"]
+    page.set_viewport_size(DESKTOP)
+    assert whole.is_visible()
+    assert not panels.first.is_visible()
+    page.close()
+
+
+@needs_browser
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("name", ["book/robot.html", "book/evolutionary.html", "notebooks/replay.html"])
+def test_the_ground_of_figures_is_that_of_the_page(site, browser, name, scheme):
+    page = browser.new_page(viewport=DESKTOP, color_scheme=scheme)
+    page.goto(urljoin(site, name))
+    ground = page.evaluate("getComputedStyle(document.body).backgroundColor")
+    expected = [int(part) for part in re.findall(r"\d+", ground)[:3]]
+    for image in page.locator(".bd-article img:visible").all():
+        pixels = plt.imread(io.BytesIO(image.screenshot()))
+        assert (255 * pixels[2, 2, :3]).round().tolist() == pytest.approx(expected, abs=1)
+    page.close()
 
 
 @needs_browser

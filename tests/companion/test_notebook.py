@@ -1,3 +1,4 @@
+import re
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -89,6 +90,19 @@ def test_a_figure_has_its_links_where_their_parts_are(shell):
         box = [(x + pad) / width, (y + pad) / height, 1 / width, 1 / height]
         assert found_box == pytest.approx([100 * part for part in box], abs=0.02)
     assert plt.get_fignums() == []
+
+
+def test_a_figure_says_where_its_panels_are_in_the_image_that_is_shown(shell):
+    notebook.prepare()
+    figure, grid = plt.subplots(1, 2, figsize=(7, 3))
+    for axes in grid:
+        axes.set(xlabel="step", aspect="equal")
+    shown, metadata = shell.display_formatter.format(figure)
+    width, height = map(float, re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', shown["image/svg+xml"]).groups())
+    layout = metadata["image/svg+xml"]["layout"]
+    assert layout["size"] == pytest.approx([width, height], abs=1)
+    assert len(layout["panels"]) == 2
+    plt.close(figure)
 
 
 def test_links_of_another_number_of_rows():

@@ -70,11 +70,11 @@ def runs_of(*evaluations):
 
 def test_curves_are_means_over_mazes():
     runs = {"quick": runs_of(200, 400, 900, 400), "never": runs_of(900, 900)}
-    _, axes = figures.plot_mean_curves(runs)
+    figure, axes = figures.plot_mean_curves(runs)
     quick, never = axes.get_lines()
     assert quick.get_xydata().tolist() == [[0, 0], [200, 25], [400, 75], [900, 75]]
     assert never.get_xydata().tolist() == [[0, 0], [900, 0]]
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["quick", "never"]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["quick", "never"]
     assert axes.get_xlim() == (0, 900)
 
 

@@ -15,6 +15,7 @@ from safe.companion.paper import reported
 from safe.experiments.experiment import WEIGHT_COLUMNS
 from safe.maze import ways_to_goal
 from safe.results import figures, tables
+from safe.results.figures.style import legend_below
 from safe.results.statistics import success_interval
 from tests.helpers import oracle
 from tests.helpers.results import runs
@@ -240,7 +241,7 @@ def test_who_judges_whom():
         texts = [text.get_text() for text in axes.texts]
         for fitness in generation.fitness:
             assert texts.count(f"{fitness:.3g}") >= 2, "the best score, and the fitness"
-    assert "The objective function\nstays as it is." in [text.get_text() for text in standard.texts]
+    assert "The objective\nfunction stays\nas it is." in [text.get_text() for text in standard.texts]
     novelties = {f"{novelty:.3f}" for novelty in judged["safe"].objective_fitness}
     assert novelties <= {text.get_text() for text in coevolving.texts}
 
@@ -284,11 +285,11 @@ def legend(figure):
     return [text.get_text() for text in figure.legends[0].get_texts()]
 
 
-def assert_lowest_panels_are_labelled(grid, label):
-    """Of three panels in two columns the second and the third have nothing below them."""
+def assert_all_panels_are_labelled(grid, label):
+    """Three panels in two columns, each of which may be shown alone."""
     grid[0, 0].figure.canvas.draw()
-    assert [axes.get_xlabel() for axes in grid.flat] == ["", label, label, ""]
-    assert [has_numbers(axes) for axes in grid.flat[:3]] == [False, True, True]
+    assert [axes.get_xlabel() for axes in grid.flat] == [label, label, label, ""]
+    assert [has_numbers(axes) for axes in grid.flat[:3]] == [True, True, True]
     assert [axes.axison for axes in grid.flat] == [True, True, True, False]
 
 
@@ -308,7 +309,7 @@ def test_rates_stand_beside_each_other():
         assert [label.get_text() for label in axes.get_yticklabels()] == ["here", "there", "far"]
         assert axes.yaxis_inverted()
     assert legend(figure) == ["red", "blue"]
-    assert_lowest_panels_are_labelled(grid, "runs that succeed, %")
+    assert_all_panels_are_labelled(grid, "runs that succeed, %")
 
 
 def test_rates_along_numbers_are_in_their_order():
@@ -328,7 +329,7 @@ def test_rates_along_numbers_are_in_their_order():
         assert [label.get_text() for label in axes.get_xticklabels()] == ["100", "1,000", "10,000"]
     assert [axes.get_ylabel() for axes in grid.flat] == ["runs that succeed, %", "", "runs that succeed, %", ""]
     assert legend(figure) == ["red", "blue"]
-    assert_lowest_panels_are_labelled(grid, "places")
+    assert_all_panels_are_labelled(grid, "places")
 
 
 def test_rates_along_words_are_in_the_order_of_the_table():
@@ -376,7 +377,7 @@ def test_windows_show_medians_and_the_middle_half():
         assert axes.get_xscale() == "log"
         assert axes.get_xticks().tolist() == [1, 2, 4, 11, 31, 101]
         assert [label.get_text() for label in axes.get_xticklabels()] == ["0", "1", "3", "10", "30", "100"]
-    assert_lowest_panels_are_labelled(grid, "generation")
+    assert_all_panels_are_labelled(grid, "generation")
 
 
 def rates_of_factors():
@@ -437,3 +438,69 @@ def test_each_experiment_is_drawn_if_names_coincide():
         titles = [axes.get_title() for axes in drawn]
         assert len(set(titles)) == 2
         assert all(title.startswith("mine (digest ") for title in titles)
+
+
+def boxes_of(figure):
+    """Left, top, right and bottom of every box of the panels of a figure, in fractions of its image."""
+    return [
+        [(left, top, left + width, top + height) for left, top, width, height in boxes]
+        for boxes in figures.layout(figure)["panels"]
+    ]
+
+
+def test_panels_side_by_side_share_no_part_of_the_image():
+    figure, grid = plt.subplots(1, 2, figsize=(8, 3), layout="constrained")
+    for axes in grid:
+        axes.set(title="a title", xlabel="steps")
+    (first,), (second,) = boxes_of(figure)
+    assert 0 <= first[0] < first[2] <= second[0] < second[2] <= 1
+    assert all(0 <= top < bottom <= 1 for _, top, _, bottom in (first, second))
+
+
+def test_a_panel_without_numbers_of_its_own_is_shown_with_those_of_the_first():
+    figure, _ = plt.subplots(1, 2, sharey=True)
+    (first,), (numbers, second) = boxes_of(figure)
+    assert numbers[0] == pytest.approx(first[0], abs=0.01)
+    assert numbers[2] < first[2] < second[0]
+    assert numbers[1::2] == pytest.approx(second[1::2])
+
+
+def test_a_colour_bar_belongs_to_its_panel():
+    figure, (axes, other) = plt.subplots(1, 2)
+    bar = figure.colorbar(axes.imshow([[0, 1]]), ax=axes, orientation="horizontal")
+    other.plot([1, 2])
+    (first,), _ = boxes_of(figure)
+    image = figures.image_box(figure)
+    left, top, width, height = figures.fractions(figure, image, bar.ax.get_window_extent())
+    assert first[0] <= left < left + width <= first[2]
+    assert first[1] <= top < top + height <= first[3]
+
+
+def test_panels_that_overlap_are_one_and_empty_places_are_none():
+    figure, grid = plt.subplots(1, 3, figsize=(12, 3), layout="constrained")
+    grid[0].twinx()
+    grid[2].set_axis_off()
+    assert len(boxes_of(figure)) == 2
+
+
+def test_every_entry_of_the_legend_has_a_box_with_its_handle():
+    figure, axes = plt.subplots()
+    for name in ("one", "another"):
+        axes.plot([1, 2], label=name)
+    legend_below(figure)
+    layout = figures.layout(figure)
+    (_, _, width, _), (_, _, wider, _) = layout["entries"]
+    assert 0 < width < wider
+    for text, (left, top, width, height) in zip(figure.legends[0].get_texts(), layout["entries"], strict=True):
+        box = figures.fractions(figure, figures.image_box(figure), text.get_window_extent())
+        assert left < box[0]
+        assert left + width >= box[0] + box[2]
+        assert top <= box[1] <= box[1] + box[3] <= top + height
+
+
+def test_a_legend_is_no_wider_than_its_figure():
+    figure, axes = plt.subplots(figsize=(4, 3))
+    for number in range(6):
+        axes.plot([1, 2], label=f"the algorithm of number {number}")
+    legend_below(figure)
+    assert figure.legends[0].get_window_extent().width <= figure.bbox.width

@@ -17,6 +17,7 @@ from safe.results.figures.mazes import (
     plot_sensors,
     plot_sheet,
 )
+from safe.results.figures.panels import fractions, image_box, layout
 from safe.results.figures.runs import (
     animate,
     plot_components,
@@ -33,6 +34,9 @@ __all__ = [
     "animate",
     "draw_maze",
     "draw_path",
+    "fractions",
+    "image_box",
+    "layout",
     "plot_coefficients",
     "plot_components",
     "plot_crowd",

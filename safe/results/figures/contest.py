@@ -24,7 +24,7 @@ def plot_ladder(rates: pd.DataFrame) -> tuple[Figure, Axes]:
     """
     of_algorithm = {name: rows.rate.to_numpy() for name, rows in rates.groupby("algorithm", sort=False)}
     names = sorted(of_algorithm, key=lambda name: of_algorithm[name].mean(), reverse=True)
-    figure, axes = plt.subplots(figsize=(7, 1.2 + 0.42 * len(names)))
+    figure, axes = plt.subplots(figsize=(5.8, 1.2 + 0.42 * len(names)))
     for place, name in enumerate(names):
         of_mazes = of_algorithm[name]
         lift = 0.3 * np.sin(12.9898 * np.arange(len(of_mazes)))  # apart, without chance
@@ -61,7 +61,7 @@ def plot_pairs(rates: pd.DataFrame, first: str, second: str) -> tuple[Figure, Ax
     axes.text(2, 98, f"better on {worse}", va="top")
     axes.text(98, 2, f"better on {better}", ha="right")
     axes.set(xlim=(-4, 104), ylim=(-4, 104), aspect="equal")
-    axes.set(xlabel=f"{plain(first)}: runs that succeed, %", ylabel=f"{plain(second)}: runs that succeed, %")
+    axes.set(xlabel=f"{plain(first)}:\nruns that succeed, %", ylabel=f"{plain(second)}:\nruns that succeed, %")
     return figure, axes
 
 
@@ -73,7 +73,7 @@ def plot_mean_curves(runs: Mapping[str, pd.DataFrame]) -> tuple[Figure, Axes]:
     runs : mapping of str to DataFrame
         By the name of the algorithm, its runs on all mazes, with the columns maze, success and evaluations.
     """
-    figure, axes = plt.subplots(figsize=(7, 4.2))
+    figure, axes = plt.subplots(figsize=(5.8, 4.2 + 0.15 * len(runs)))
     for number, (name, of_algorithm) in enumerate(runs.items()):
         curve, last = mean_success_curve(of_algorithm), of_algorithm.evaluations.max()
         steps = [0, *curve.evaluations, last]
@@ -86,5 +86,5 @@ def plot_mean_curves(runs: Mapping[str, pd.DataFrame]) -> tuple[Figure, Axes]:
     axes.set(xlabel="evaluations", ylabel="runs that have succeeded, %", ylim=(0, 100))
     axes.set_xlim(0, max(of_algorithm.evaluations.max() for of_algorithm in runs.values()))
     axes.xaxis.set_major_formatter("{x:,.0f}")
-    axes.legend(loc="upper left", bbox_to_anchor=(1, 1), fontsize="small")
+    legend_below(figure)
     return figure, axes

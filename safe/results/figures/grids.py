@@ -158,16 +158,16 @@ def plot_windows(
 def _panels(
     number: int, columns: int, height: float, xlabel: str, legend: float = 0, sharey: bool = False
 ) -> tuple[Figure, np.ndarray]:
-    """So many panels, line by line; the lowest of each column has the numbers and the label of the shared axis.
+    """So many panels, line by line, each with the numbers and the label of the horizontal axis that all share.
 
     `height` is that of a line of panels, and `legend` that of the room below them, in inches.
     """
     lines = -(-number // columns)
-    size = (4.2 * columns, legend + height * lines)
+    size = (4.2 * columns, legend + height * lines + 0.4 * (lines - 1))
     figure, grid = plt.subplots(lines, columns, figsize=size, squeeze=False, sharex=True, sharey=sharey)
     for axes in grid.flat[number:]:
         axes.set_axis_off()
-    for axes in grid.flat[:number][-columns:]:
+    for axes in grid.flat[:number]:
         axes.tick_params(labelbottom=True)
         axes.set_xlabel(xlabel)
     return figure, grid

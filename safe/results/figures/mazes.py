@@ -105,11 +105,11 @@ def plot_crowd(
     return figure, axes
 
 
-def plot_sheet(mazes: Sequence[Maze], columns: int = 10) -> tuple[Figure, Axes]:
+def plot_sheet(mazes: Sequence[Maze], columns: int = 6) -> tuple[Figure, Axes]:
     """Many mazes on one sheet, row by row, each with its number above, from 1; the axes have an image of each."""
-    side, gap = max(max(maze.shape) for maze in mazes), 16
+    side, gap = max(max(maze.shape) for maze in mazes), 22
     lines = -(-len(mazes) // columns)
-    figure, axes = plt.subplots(figsize=(9.6, 9.6 * lines / columns + 0.4))
+    figure, axes = plt.subplots(figsize=(6, 6 * lines / columns + 0.4))
     for number, maze in enumerate(mazes):
         top, left = ((side + gap) * place for place in divmod(number, columns))
         height, width = maze.shape
@@ -117,7 +117,7 @@ def plot_sheet(mazes: Sequence[Maze], columns: int = 10) -> tuple[Figure, Axes]:
         axes.imshow(
             maze.walls, cmap=ListedColormap(["white", WALL]), vmin=0, vmax=1, interpolation="none", extent=extent
         )
-        axes.text(left + width / 2, top - 2, str(number + 1), ha="center", va="bottom", fontsize=7)
+        axes.text(left + width / 2, top - 2, str(number + 1), ha="center", va="bottom")
         for (row, column), marker, size, colour, label in (
             (maze.start, "o", 4, START, "start"),
             (maze.goal, "*", 7, GOAL, "goal"),
@@ -158,7 +158,7 @@ def plot_sensors(maze: Maze, cell: tuple[int, int], margin: int = 4) -> tuple[Fi
     """
     readings = maze.readings(cell)
     row, column = cell
-    figure, axes = plt.subplots(figsize=(7, 5))
+    figure, axes = plt.subplots(figsize=(5.8, 4.5))
     draw_maze(axes, maze)
     axes.plot(column, row, "D", markersize=11, color=PATH, markeredgecolor="white", zorder=5, linestyle="none")
     reach = [(row, column)]
@@ -177,7 +177,6 @@ def plot_sensors(maze: Maze, cell: tuple[int, int], margin: int = 4) -> tuple[Fi
             color=GOAL if readings[f"goal_{direction}"] else PATH,
             ha="center",
             va="center",
-            fontsize="small",
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5},
             zorder=6,
         )

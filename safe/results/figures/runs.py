@@ -36,14 +36,14 @@ def plot_judging(generations: Mapping[str, Generation]) -> tuple[Figure, np.ndar
     generations : mapping of str to Generation
         The generations, by their titles.
     """
-    widths = [len(generation.objectives) + 5.5 for generation in generations.values()]
+    widths = [len(generation.objectives) + 4.37 for generation in generations.values()]
     rows = max(len(generation.genomes) for generation in generations.values())
     figure, grid = plt.subplots(
-        1, len(widths), figsize=(0.72 * sum(widths), 0.72 * (rows + 4.8)), width_ratios=widths, squeeze=False
+        1, len(widths), figsize=(0.7 * sum(widths), 0.96 * (rows + 4.1)), width_ratios=widths, squeeze=False
     )
     for axes, width, (title, generation) in zip(grid[0], widths, generations.items(), strict=True):
         _draw_judging(axes, generation)
-        axes.set(title=plain(title), xlim=(-2.7, width - 2.7), ylim=(rows - 0.4, -4.7), aspect="equal")
+        axes.set(title=plain(title), xlim=(-1.99, width - 1.99), ylim=(rows - 0.45, -4.3))
         axes.set_axis_off()
     return figure, grid[0]
 
@@ -53,47 +53,50 @@ def _draw_judging(axes: Axes, generation: Generation) -> None:
     scores = generation.components.T @ generation.objectives.T
     closeness, novelty = generation.components
 
+    def write(x: float, y: float, text: str, **style: str) -> None:
+        axes.text(x, y, text, ha="center", va="center", **style)
+
     def box(x: float, y: float, text: str, kind: str, width: float = 1, height: float = 1, **style: str) -> None:
         corner = x - width / 2, y - height / 2
         axes.add_patch(Rectangle(corner, width, height, facecolor=TINTS[kind], edgecolor="white", linewidth=2))
-        axes.text(x, y, text, ha="center", va="center", fontsize=8, **style)
+        write(x, y, text, **style)
 
     def arrow(start: tuple[float, float], end: tuple[float, float]) -> None:
         axes.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": WALL, "shrinkA": 0, "shrinkB": 0})
 
     for i in range(n):
-        text = f"$S_{{{i + 1}}}$:  1/distance {closeness[i]:.4f}"
+        text = f"$S_{{{i + 1}}}$\n1/distance\n{closeness[i]:.4f}"
         if generation.novelty is not None:
-            text += f"\n       novelty {novelty[i]:.2f}"
-        box(-1.6, i, text, "solutions", width=2.2)
+            text += f"\nnovelty {novelty[i]:.1f}"
+        box(-1.25, i, text, "solutions", width=1.46)
         for j in range(m):
             won = generation.winners[i] == j
             box(j, i, f"{scores[i, j]:.3g}", "won" if won else "plain", fontweight="bold" if won else "normal")
-        arrow((m - 0.45, i), (m - 0.05, i))
-        box(m + 0.5, i, f"{generation.fitness[i]:.3g}", "won", fontweight="bold")
-        arrow((m + 1.05, i), (m + 1.45, i))
-    axes.text(m + 0.5, -1.1, "fitness:\nthe best\nscore", ha="center", va="center", fontsize=8)
-    box(m + 2.1, (n - 1) / 2, "selection,\ncrossover,\nmutation:\nnext\nsolutions", "solutions", 1.2, n)
+        arrow((m - 0.48, i), (m - 0.24, i))
+        box(m + 0.28, i, f"{generation.fitness[i]:.3g}", "won", fontweight="bold")
+        arrow((m + 0.8, i), (m + 1.04, i))
+    write(m + 0.28, -1.05, "fitness:\nthe best\nscore")
+    box(m + 1.71, (n - 1) / 2, "selection,\ncrossover,\nmutation:\nnext\nsolutions", "solutions", 1.3, n)
     middle = (m - 1) / 2
     for j, (a, b) in enumerate(generation.objectives):
-        box(j, -1.1, f"$O_{{{j + 1}}}$\na={a:.4f}\nb={b:.4f}", "objectives")
+        box(j, -1.05, f"$O_{{{j + 1}}}$\na {a:.3f}\nb {b:.3f}", "objectives")
         if generation.objective_fitness is not None:
-            arrow((j, -1.65), (j, -2.05))
-            box(j, -2.6, f"{generation.objective_fitness[j]:.3f}", "objectives", fontweight="bold")
-            arrow((j, -3.15), (j, -3.55))
+            arrow((j, -1.57), (j, -1.83))
+            box(j, -2.35, f"{generation.objective_fitness[j]:.3f}", "objectives", fontweight="bold")
+            arrow((j, -2.87), (j, -3.13))
     if generation.objective_fitness is None:
-        axes.text(middle, -2.6, "The objective function\nstays as it is.", ha="center", va="center", fontsize=8)
+        write(middle, -2.35, "The objective\nfunction stays\nas it is.")
     else:
-        axes.text(-0.65, -2.6, "fitness:\nnovelty among\nobjective functions", ha="right", va="center", fontsize=8)
+        write(-1.2, -2.35, "fitness:\nnovelty\namong\nobjective\nfunctions")
         text = "selection, crossover, mutation:\nnext objective functions"
-        box(middle, -4.1, text, "objectives", width=m)
+        box(middle, -3.65, text, "objectives", width=m)
 
 
 def plot_progress(story: Sequence[Generation]) -> tuple[Figure, np.ndarray]:
     """How a run went: distances to the goal and, if it was computed, novelty, by generation."""
     numbers = [generation.generation for generation in story]
     has_novelty = story[0].novelty is not None
-    figure, grid = plt.subplots(1 + has_novelty, 1, figsize=(7, 2.6 * (1 + has_novelty)), sharex=True, squeeze=False)
+    figure, grid = plt.subplots(1 + has_novelty, 1, figsize=(5.8, 2.6 * (1 + has_novelty)), sharex=True, squeeze=False)
     distance = grid[0, 0]
     distance.plot(
         numbers, [generation.distances.min() for generation in story], alpha=0.5, label="nearest in generation"
@@ -113,7 +116,7 @@ def plot_progress(story: Sequence[Generation]) -> tuple[Figure, np.ndarray]:
 
 def plot_components(story: Sequence[Generation]) -> tuple[Figure, Axes]:
     """How large closeness and novelty are over a run, on a logarithmic scale: the largest and the mean value."""
-    figure, axes = plt.subplots(figsize=(7, 3.6))
+    figure, axes = plt.subplots(figsize=(5.8, 3.3))
     numbers = [generation.generation for generation in story]
     for row, (name, colour) in enumerate((("1/distance", GOAL), ("novelty, cells", PATH))):
         values = np.array([generation.components[row] for generation in story])

@@ -67,7 +67,8 @@ def plot_coefficients(results: Mapping[Experiment, pd.DataFrame], paper: Paper =
         axes.plot(successful.a, successful.b, ".", alpha=0.6, label="a successful run")
         (a, a_sd), (b, b_sd) = paper(experiment).reindex(COEFFICIENTS)[["mean", "sd"]].to_numpy()
         axes.errorbar(a, b, xerr=a_sd, yerr=b_sd, fmt="x", capsize=4, color=GOAL, label="in the paper, mean and sd")
-        axes.set(title=plain(label), xlabel="a (closeness)", ylabel="b (novelty)", xlim=(-0.02, 1.05))
+        axes.set(title=plain(label), xlabel="a (closeness)", ylabel="b (novelty)", aspect="equal")
+        axes.set(xlim=(-0.02, 1.05), ylim=(-0.02, 1.05))
     legend_below(figure)
     return figure, grid[0]
 

@@ -29,9 +29,13 @@ def plain(name: str) -> str:
 
 
 def legend_below(figure: Figure) -> None:
-    """One legend for all panels, each label once."""
+    """One legend for all panels, each label once, in as many lines as the width of the figure asks for."""
     handles: dict = {}
     for axes in figure.axes:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             handles.setdefault(label, handle)
-    figure.legend(handles.values(), handles, loc="outside lower center", ncols=len(handles))
+    for columns in range(len(handles), 0, -1):
+        legend = figure.legend(handles.values(), handles, loc="outside lower center", ncols=columns)
+        if columns == 1 or legend.get_window_extent().width <= figure.bbox.width:
+            return
+        legend.remove()
