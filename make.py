@@ -19,7 +19,7 @@ PIP = ("python", "-m", "pip", "install", "--quiet", "--quiet", "--disable-pip-ve
 FIXED = ("--constraint", "constraints.txt")
 BUILD = ("python", "book/build.py")
 UNCHANGED = ("python", "book/unchanged.py")
-COMPILE = ("python", "-c", "from safe.evolution import compile_kernels; compile_kernels()")
+COMPILE = ("python", "-c", "from safe.evolution import compile_kernels as run; run(), run(with_choices=True)")
 BOUNDS_CHECKED = {"NUMBA_BOUNDSCHECK": "1", "NUMBA_CACHE_DIR": ".numba-boundscheck"}
 ATHERIS = ("python", "-m", "tests.helpers.fuzz_atheris")
 

@@ -24,6 +24,12 @@ from jupyter_client.provisioning import KernelProvisionerFactory, LocalProvision
 from isolated import ROOT
 
 IMPORTED = ("ipykernel.kernelapp", "safe.companion.ledger", "safe.companion.notebook", "safe.playground.widget")
+COMPILE_CHOICES = """
+import sys
+sys.path.insert(0, sys.argv[1])
+from safe.evolution import compile_kernels
+compile_kernels(with_choices=True)
+"""
 _ordering = threading.Lock()  # notebooks are executed side by side
 BACKEND = "module://matplotlib_inline.backend_inline"  # a kernel would name it before matplotlib is imported
 
@@ -86,7 +92,9 @@ def _server() -> subprocess.Popen:
     server = subprocess.Popen(
         [sys.executable, __file__], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8"
     )
+    more = subprocess.Popen([sys.executable, "-c", COMPILE_CHOICES, str(ROOT)])  # on another core
     compile_kernels()  # where people see how far it is; meanwhile the server imports
+    more.wait()
     return server
 
 
@@ -113,7 +121,8 @@ def serve() -> None:
         importlib.import_module(name)
     for line in sys.stdin:
         # they are on the disk by then: to compile would start threads, which no fork has
-        importlib.import_module("safe.evolution").compile_kernels()
+        for with_choices in (False, True):
+            importlib.import_module("safe.evolution").compile_kernels(with_choices)
         number = os.fork()
         if number == 0:
             become_kernel(**json.loads(line))

@@ -188,7 +188,7 @@ def evolve_until_stopped(
 def compile_kernels(with_choices: bool = False) -> None:
     """Compile all that a run needs, or load it from the disk, so that no run's time includes compiling.
 
-    A run with choices beyond the paper needs kernels of its own.
+    A run with choices beyond the paper (see `has_choices`) needs kernels of its own.
     """
     with _compiling:  # one thread compiles, and the others wait
         _compile_kernels(with_choices)
@@ -221,6 +221,15 @@ def generations(
     start = start_run(maze, algorithm, seed, parameters)  # checks the arguments now, not at the first step
     compile_kernels(start[2] is not None)
     return step_through(*start)
+
+
+def has_choices(algorithm: Algorithm, parameters: Parameters) -> bool:
+    """Does a run have choices beyond the paper, for which it needs more than the paper's rules do?"""
+    is_papers = algorithm.content.keys() <= {"objectives", "rating"} and algorithm.rating in (
+        "none",
+        "genotypic novelty",
+    )
+    return not (is_papers and parameters.admission == ADMISSIONS[LOWEST_REPLACED])
 
 
 class Settings(NamedTuple):
@@ -364,8 +373,7 @@ def start_run(
         known=np.full((n, 2), -1),
         walk_space=walk_space(maze.shape, parameters.steps),
     )
-    is_papers = algorithm.content.keys() <= {"objectives", "rating"} and settings.rating in (UNRATED, GENOTYPIC_NOVELTY)
-    if is_papers and settings.admission == LOWEST_REPLACED:
+    if not has_choices(algorithm, parameters):
         return state, settings, None, rng
     choices = Choices(
         ways=_ways(maze) if is_weighed[WAY] else np.zeros((0, 0), dtype=np.int64),

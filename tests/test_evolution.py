@@ -10,7 +10,9 @@ from hypothesis import strategies as st
 
 import safe
 from safe import Algorithm, Parameters, evolve, generations
-from safe.evolution import RULES
+from safe.algorithms import get_algorithm
+from safe.companion import paper
+from safe.evolution import RULES, has_choices, start_run
 from safe.judges import SCALINGS
 from safe.novelty import ADMISSIONS
 from tests.helpers import oracle
@@ -256,3 +258,20 @@ def test_fitness_is_the_best_weighing_of_the_components(algorithm):
         assert scores[np.arange(len(scores)), generation.winners] == pytest.approx(generation.fitness, rel=1e-12)
         expected = np.zeros(len(scores)) if generation.novelty is None else generation.novelty
         assert (generation.components[1] == expected).all()
+
+
+@pytest.mark.parametrize(
+    ("algorithm", "parameters", "expected"),
+    [
+        *((algorithm, Parameters(), False) for algorithm in paper.ALGORITHMS),
+        ("safe", Parameters(population=10, crossover=0, archive=0), False),
+        ("novelty", Parameters(admission="random"), True),
+        ("weighing-and-goals", Parameters(), True),
+        (Algorithm("mine", rating="pearson"), Parameters(), True),
+        (Algorithm("mine", scaling="rank"), Parameters(), True),
+    ],
+)
+def test_choices_beyond_the_paper_are_known(algorithm, parameters, expected):
+    assert has_choices(get_algorithm(algorithm), parameters) == expected
+    *_, choices, _ = start_run("maze1", algorithm, 1, parameters)
+    assert (choices is not None) == expected

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from safe.evolution import RULES, Run, compile_kernels, evolve_until_stopped
+from safe.evolution import RULES, Run, compile_kernels, evolve_until_stopped, has_choices
 from safe.experiments.cores import available_cores
 from safe.experiments.progress import bar
 from safe.experiments.provenance import Origin, origin
@@ -71,7 +71,7 @@ class Dispatcher:
 
     def compute(self, missing: Sequence[int], progress: bool) -> None:
         """Compute the missing runs, and store them as they come back."""
-        compile_kernels()
+        compile_kernels(has_choices(self.experiment.algorithm, self.experiment.parameters))
         self.waiting.extend(missing)
         total, successes = self.experiment.runs, self.store.successes(self.entry, self.experiment.runs)
         label = f"{self.experiment.algorithm.name} on {self.experiment.maze.name}"
@@ -188,7 +188,7 @@ def batch_size(waiting: int, seconds: float) -> int:
 
 def compute_batch(experiment: Experiment, numbers: list[int], stop: np.ndarray) -> Batch:
     """Compute some runs of an experiment, wherever the executor does so; after `stop` is set, or a failure, no more."""
-    compile_kernels()
+    compile_kernels(has_choices(experiment.algorithm, experiment.parameters))
     runs: list[tuple[int, Run, float]] = []
     failure = None
     for number in numbers:

@@ -15,7 +15,8 @@ def checkout(tmp_path_factory, worker_id):
     made = folder.with_suffix(".made")
     with locked(folder):
         if not made.exists():
-            compile_kernels()  # before they are copied
+            for with_choices in (False, True):
+                compile_kernels(with_choices)  # before they are copied
             make(folder)
             made.touch()
     return folder

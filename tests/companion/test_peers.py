@@ -194,5 +194,5 @@ def test_another_record_is_refused(tmp_path, monkeypatch):
         peers.verify()
     altered = [f"{line},7" if place else line for place, line in enumerate(line.rsplit(",", 1)[0] for line in lines)]
     peers.RECORD.write_text("\n".join([lines[0], *altered[1:]]))
-    with pytest.raises(ValueError, match="record must hold what its runs make; got '.*,7' instead of"):
+    with pytest.raises(ValueError, match=r"record must hold what its runs make; got '.*,7' instead of"):
         peers.verify(sample=2, seed=1)
