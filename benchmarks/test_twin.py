@@ -3,8 +3,8 @@
 Archives are full in all generations of a run but the first five. What is waited for is timed, since the engine works in
 another process, and so the call of it is counted, too: the maze goes there as a drawing, and the run comes back.
 
-`times_safe` is how many times as long a run takes as in the package: the median of pairs, one right after the other, so
-that what else the machine does disturbs both alike.
+`times_safe` is how many times as long a run takes as in the package: the median of pairs, one right after the other. It
+means something only if nothing else keeps the cores busy: a browser may get another share of them than this process.
 """
 
 import statistics

@@ -27,7 +27,7 @@ from playground import PAGE as PLAYGROUND
 TABLES = EXECUTED / "tables"
 WIDEST = 30  # characters of a column that count for its width in print
 LONG = 32  # characters from which on a cell is text, which needs room
-PHONE = 50  # characters that stand side by side on a phone, with 2 between columns
+PHONE = 44  # characters that stand side by side on a phone, with 2 between columns
 
 
 class ResultTables(SphinxTransform):

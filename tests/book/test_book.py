@@ -220,8 +220,11 @@ def test_no_page_loads_anything_from_elsewhere(pages):
 
 def test_figures_have_a_caption_a_number_and_a_text(pages):
     for name, page in pages.items():
-        for image in re.findall(r"<img [^>]*_images/[^>]*>", page):
+        whole = re.sub(r'<span class="cut".*?</span>', "", page, flags=re.DOTALL)
+        for image in re.findall(r"<img [^>]*_images/[^>]*>", whole):
             assert re.search(r'alt="[^"]{20,}"', image), (name, image)
+        for panels in re.findall(r'<div class="panels"[^>]*>', page):
+            assert re.search(r'aria-label="[^"]{20,}"', panels), (name, panels)
         figures = re.findall(r"<figure.*?</figure>", page, re.DOTALL)
         for figure in figures:
             assert "caption-number" in figure, name

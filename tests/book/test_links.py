@@ -137,6 +137,19 @@ def test_every_row_about_runs_or_robots_leads_to_them(checkout, linked, name):
                     assert values[key].split(":")[0] == row[key], link
 
 
+def test_every_cell_names_its_heading_for_the_cards_of_narrow_pages(checkout):
+    tables = [
+        table
+        for page in (checkout / "_build" / "html" / "notebooks").glob("*.html")
+        for table in re.findall(r'<table class="results.*?</table>', page.read_text(), re.DOTALL)
+    ]
+    for table in tables:
+        head, *rows = re.findall(r"<tr.*?</tr>", table, re.DOTALL)
+        for row in rows:
+            assert [html.unescape(label) for label in re.findall(r'<t[hd] data-label="(.*?)"', row)] == texts_of(head)
+    assert any(" cards" in table.split(">", 1)[0] for table in tables)
+
+
 def test_every_unseen_maze_on_the_sheets_can_be_driven_in(checkout):
     page = (checkout / "_build" / "html" / "notebooks" / "gallery.html").read_text()
     sheets = re.findall(r'<div class="linked.*?</div>', page, re.DOTALL)

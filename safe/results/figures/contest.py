@@ -24,7 +24,7 @@ def plot_ladder(rates: pd.DataFrame) -> tuple[Figure, Axes]:
     """
     of_algorithm = {name: rows.rate.to_numpy() for name, rows in rates.groupby("algorithm", sort=False)}
     names = sorted(of_algorithm, key=lambda name: of_algorithm[name].mean(), reverse=True)
-    figure, axes = plt.subplots(figsize=(5.8, 1.2 + 0.42 * len(names)))
+    figure, axes = plt.subplots(figsize=(5.6, 1.2 + 0.42 * len(names)))
     for place, name in enumerate(names):
         of_mazes = of_algorithm[name]
         lift = 0.3 * np.sin(12.9898 * np.arange(len(of_mazes)))  # apart, without chance
@@ -73,7 +73,7 @@ def plot_mean_curves(runs: Mapping[str, pd.DataFrame]) -> tuple[Figure, Axes]:
     runs : mapping of str to DataFrame
         By the name of the algorithm, its runs on all mazes, with the columns maze, success and evaluations.
     """
-    figure, axes = plt.subplots(figsize=(5.8, 4.2 + 0.15 * len(runs)))
+    figure, axes = plt.subplots(figsize=(5.6, 4.2 + 0.15 * len(runs)))
     for number, (name, of_algorithm) in enumerate(runs.items()):
         curve, last = mean_success_curve(of_algorithm), of_algorithm.evaluations.max()
         steps = [0, *curve.evaluations, last]

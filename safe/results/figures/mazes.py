@@ -109,7 +109,7 @@ def plot_sheet(mazes: Sequence[Maze], columns: int = 6) -> tuple[Figure, Axes]:
     """Many mazes on one sheet, row by row, each with its number above, from 1; the axes have an image of each."""
     side, gap = max(max(maze.shape) for maze in mazes), 22
     lines = -(-len(mazes) // columns)
-    figure, axes = plt.subplots(figsize=(6, 6 * lines / columns + 0.4))
+    figure, axes = plt.subplots(figsize=(5.6, 5.6 * lines / columns + 0.4))
     for number, maze in enumerate(mazes):
         top, left = ((side + gap) * place for place in divmod(number, columns))
         height, width = maze.shape
@@ -158,7 +158,7 @@ def plot_sensors(maze: Maze, cell: tuple[int, int], margin: int = 4) -> tuple[Fi
     """
     readings = maze.readings(cell)
     row, column = cell
-    figure, axes = plt.subplots(figsize=(5.8, 4.5))
+    figure, axes = plt.subplots(figsize=(5.6, 4.4))
     draw_maze(axes, maze)
     axes.plot(column, row, "D", markersize=11, color=PATH, markeredgecolor="white", zorder=5, linestyle="none")
     reach = [(row, column)]

@@ -96,7 +96,7 @@ def plot_progress(story: Sequence[Generation]) -> tuple[Figure, np.ndarray]:
     """How a run went: distances to the goal and, if it was computed, novelty, by generation."""
     numbers = [generation.generation for generation in story]
     has_novelty = story[0].novelty is not None
-    figure, grid = plt.subplots(1 + has_novelty, 1, figsize=(5.8, 2.6 * (1 + has_novelty)), sharex=True, squeeze=False)
+    figure, grid = plt.subplots(1 + has_novelty, 1, figsize=(5.6, 2.6 * (1 + has_novelty)), sharex=True, squeeze=False)
     distance = grid[0, 0]
     distance.plot(
         numbers, [generation.distances.min() for generation in story], alpha=0.5, label="nearest in generation"
@@ -116,7 +116,7 @@ def plot_progress(story: Sequence[Generation]) -> tuple[Figure, np.ndarray]:
 
 def plot_components(story: Sequence[Generation]) -> tuple[Figure, Axes]:
     """How large closeness and novelty are over a run, on a logarithmic scale: the largest and the mean value."""
-    figure, axes = plt.subplots(figsize=(5.8, 3.3))
+    figure, axes = plt.subplots(figsize=(5.6, 3.3))
     numbers = [generation.generation for generation in story]
     for row, (name, colour) in enumerate((("1/distance", GOAL), ("novelty, cells", PATH))):
         values = np.array([generation.components[row] for generation in story])
