@@ -225,10 +225,8 @@ def generations(
 
 def has_choices(algorithm: Algorithm, parameters: Parameters) -> bool:
     """Does a run have choices beyond the paper, for which it needs more than the paper's rules do?"""
-    is_papers = algorithm.content.keys() <= {"objectives", "rating"} and algorithm.rating in (
-        "none",
-        "genotypic novelty",
-    )
+    papers_ratings = RATINGS[UNRATED], RATINGS[GENOTYPIC_NOVELTY]
+    is_papers = algorithm.content.keys() <= {"objectives", "rating"} and algorithm.rating in papers_ratings
     return not (is_papers and parameters.admission == ADMISSIONS[LOWEST_REPLACED])
 
 

@@ -35,7 +35,7 @@ BAD = {  # parameter: value, what the error says
     "a": ("much", "objectives must be .*"),
     "b": (float("nan"), "objectives must be .*"),
     "points": ("0,0 1", "points must be two or more of row,column, separated by blanks; got '0,0 1'"),
-    "algorithm": ("best", "algorithm must be one of 'standard', .*'random'; got 'best'"),
+    "algorithm": ("best", "algorithm must be one of 'standard', .*'weighing-and-goals'; got 'best'"),
     "traced": (-1, "traced must be an integer of at least 0; got -1"),
     "repeats": (-1, "repeats must be an integer of at least 0; got -1"),
 }
