@@ -162,7 +162,7 @@ def test_every_unseen_maze_on_the_sheets_can_be_driven_in(checkout):
         assert {link.split("#")[0] for _, link in links} == {"../book/playground.html"}
         places = [tuple(map(float, place)) for place in re.findall(r"left: ([\d.]+)%; top: ([\d.]+)%", sheet)]
         assert places == sorted(places, key=lambda place: (place[1], place[0]))
-        assert len({top for _, top in places}) == 6
+        assert len({top for _, top in places}) == 10
 
 
 def test_other_rows_have_no_links(linked):

@@ -64,7 +64,7 @@ def _boxes(axes: Axes, drawn: list[Axes]) -> list[Bbox]:
         for other in axes.get_shared_y_axes().get_siblings(axes)
         if other in drawn and other.get_subplotspec().rowspan.start == row and other.get_subplotspec().is_first_col()
     )
-    left, edge = numbered.get_tightbbox().x0 - 2, numbered.get_window_extent().x0
+    left, edge = numbered.get_tightbbox().x0 - 2, numbered.get_window_extent().x0 - 1.5  # before its line
     return [Bbox.from_extents(left, box.y0, edge, box.y1), box]
 
 
