@@ -79,7 +79,8 @@ def plot_choices(
     maze: Maze, algorithm: Algorithm, pairs: Sequence[tuple[Generation, Generation]]
 ) -> tuple[Figure, np.ndarray]:
     """Who chose whom at some times of a run, a panel for each pair of generations (see `draw_choices`)."""
-    figure, grid = plt.subplots(1, len(pairs), figsize=(3.4 * len(pairs), 3.9), squeeze=False)
+    side = 3.4 if len(pairs) > 1 else 5.4
+    figure, grid = plt.subplots(1, len(pairs), figsize=(side * len(pairs), side + 0.5), squeeze=False)
     for axes, pair in zip(grid[0], pairs, strict=True):
         draw_choices(axes, maze, algorithm, *pair)
     legend_below(figure)
