@@ -7,7 +7,7 @@ const LABELS = {
   standard: { title: "Standard EA", summary: "rewards closeness to the goal" },
   novelty: { title: "Novelty search", summary: "rewards ending where none has ended before" },
   safe: { title: "SAFE", summary: "evolves what to reward as well" },
-  fixed: { title: "Fixed weights", summary: "rewards closeness and novelty, half and half" },
+  fixed: { title: "Fixed coefficients", summary: "rewards closeness and novelty, half and half" },
   random: { title: "Random search", summary: "rewards nothing: new robots, drawn by chance" },
   "weighing-and-goals": {
     title: "Weighing and goals",
