@@ -4,7 +4,7 @@
 
 A notebook that is opened in Colab comes without the project, and so without the setting that holds the repository's
 address: the cell must name it. It is the second of each notebook, after the title. As long as there is no address, it
-says how to install the package. No page of the book shows it.
+says how to install the package. Its first line says which page of the book the notebook is, and no page shows it.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import yaml
 from executed import ROOT, notebooks
 
 ID = "install"
+PAGE = "# In the book, this notebook is the page notebooks/{name}.html.\n"
 TRY = """\
 from importlib import import_module
 
@@ -39,10 +40,10 @@ def source(address: str, branch: str) -> str:
     return TRY + (INSTALL.format(address=address, branch=branch) if address else EXPLAIN)
 
 
-def configured() -> str:
-    """The code of the cell, for the repository that _config.yml names."""
+def configured(notebook: Path) -> str:
+    """The code of a notebook's cell, for the repository that _config.yml names."""
     repository = yaml.safe_load((ROOT / "_config.yml").read_text(encoding="utf-8"))["repository"]
-    return source(repository["url"], repository["branch"])
+    return PAGE.format(name=notebook.stem) + source(repository["url"], repository["branch"])
 
 
 def write(notebook: Path, code: str) -> None:
@@ -56,4 +57,4 @@ def write(notebook: Path, code: str) -> None:
 
 if __name__ == "__main__":
     for notebook in notebooks():
-        write(notebook, configured())
+        write(notebook, configured(notebook))

@@ -57,7 +57,8 @@ def test_its_second_cell_installs_the_package_from_the_repositorys_address(noteb
     second = json.loads(notebook.read_text())["cells"][1]
     assert second["id"] == install_cell.ID
     assert second["metadata"] == {"tags": ["remove-cell"]}
-    assert "".join(second["source"]) == install_cell.configured()
+    assert "".join(second["source"]) == install_cell.configured(notebook)
+    assert second["source"][0] == f"# In the book, this notebook is the page notebooks/{notebook.stem}.html.\n"
 
 
 @pytest.fixture
@@ -106,5 +107,5 @@ def test_the_cell_is_written_once(install_cell, tmp_path):
     copy.write_bytes(NOTEBOOKS[0].read_bytes())
     install_cell.write(copy, "1")
     assert json.loads(copy.read_text())["cells"][1]["source"] == ["1"]
-    install_cell.write(copy, install_cell.configured())
+    install_cell.write(copy, install_cell.configured(copy))
     assert copy.read_bytes() == NOTEBOOKS[0].read_bytes()
