@@ -166,6 +166,7 @@ def _install(mark, *what):
     """Install packages, unless a file with this name in .venv says that they are there, at the versions asked for.
 
     By uv, which is fast, or else by pip: uv may be missing, and does not know pip's settings of proxies and mirrors.
+    Either way the environment has pip, for what its owner installs.
     """
     _create()
     asked = hashlib.sha256()
@@ -175,7 +176,7 @@ def _install(mark, *what):
     if installed.exists() and installed.read_text(encoding="utf-8") == asked.hexdigest():
         return
     uv = ("uv", "pip", "install", "--quiet", "--python", _program("python"))
-    if not Path(_program("uv")).exists() or _end(_start(*uv, *FIXED, *what)):
+    if not Path(_program("uv")).exists() or _end(_start(*uv, *FIXED, "pip", *what)):
         if not Path(_program("pip")).exists():
             _run("python", "-m", "ensurepip", "--default-pip")
             _run(*PIP, "--upgrade", "pip")
