@@ -13,6 +13,22 @@ metadata of the output. On the page each is an area over its part of the image. 
 
 Where the panels of a figure are travels there, too. A narrow page shows the same image once for each panel and each
 entry of the legend, cut to it, one below the other (see `book.css`).
+
+A chapter may also show a view of the playground, small and with few controls, in the place of such a figure::
+
+    ```{live} fig-sensors
+    :name: fig-readings
+    :address: view=drive&maze=maze1
+    :parts: play steps readings
+    :height: 30rem 45rem
+
+    What a robot senses.
+    ```
+
+For what the address, the parts and the other options mean see `safe/playground/javascript/figure.js`. `choices` are a
+title and, behind bars, texts, each with an address behind a colon. The image stands in a box of this height, on a
+desktop and on a phone, until `_static/live.js` puts the view over it. In print, in a PDF and without JavaScript it
+stays.
 """
 
 from __future__ import annotations
@@ -20,6 +36,8 @@ from __future__ import annotations
 import base64
 import html
 import json
+import zlib
+from pathlib import Path
 from typing import ClassVar
 
 from docutils import nodes
@@ -33,6 +51,7 @@ from sphinx.util.typing import ExtensionMetadata
 
 from executed import EXECUTED, ROOT
 from playground import PAGE as PLAYGROUND
+from playground import SCRIPT, STYLE
 
 IMAGES = EXECUTED / "figures"
 KINDS = {"image/svg+xml": "svg", "application/pdf": "pdf"}  # for pages, and for print
@@ -44,6 +63,7 @@ BOX = (
     "across",
     "down",
 )  # in book.css: in fractions of an image, and its size in points
+LIVE = "live.js"
 
 
 class Shown(SphinxDirective):
@@ -86,6 +106,31 @@ class Shown(SphinxDirective):
         self.set_source_info(figure)
         self.add_name(figure)
         return figure
+
+
+class Live(Shown):
+    """A figure of a notebook that is also a view of the playground."""
+
+    option_spec: ClassVar = Shown.option_spec | {
+        "address": directives.unchanged_required,
+        "parts": directives.class_option,
+        "height": str.split,
+        "weights": directives.positive_int_list,
+        "robot": directives.nonnegative_int,
+        "choices": directives.unchanged_required,
+    }
+
+    def run(self) -> list[nodes.Node]:
+        (figure,) = super().run()
+        settings = {key: self.options[key] for key in ("address", "parts", "weights", "robot") if key in self.options}
+        if "choices" in self.options:
+            title, *choices = self.options["choices"].split(" | ")
+            options = [choice.split(": ", 1) for choice in choices]
+            settings["choices"] = {"title": title, "options": [[address, text] for text, address in options]}
+        figure["live"] = settings
+        figure["height"] = self.options["height"]
+        self.env.metadata[self.env.docname]["live"] = True
+        return [figure]
 
 
 class FigureMetadata(SphinxTransform):
@@ -157,8 +202,41 @@ def _metadata(output: dict) -> dict:
     return output.get("metadata", {}).get("image/svg+xml", {})
 
 
+class LiveFigures(SphinxPostTransform):
+    """On the page the image stands in the box of the view."""
+
+    default_priority = 700
+    formats = ("html",)
+
+    def run(self, **kwargs: object) -> None:
+        playground = self.app.builder.get_relative_uri(self.env.docname, PLAYGROUND)
+        for figure in self.document.findall(lambda node: isinstance(node, nodes.figure) and "live" in node):
+            settings = html.escape(json.dumps(figure["live"] | {"href": playground}))
+            desktop, phone = figure["height"]
+            box = f'<div class="live" data-figure="{settings}" style="--desktop: {desktop}; --phone: {phone}">'
+            figure.insert(0, nodes.raw("", box, format="html"))
+            figure.insert(len(figure) - 1, nodes.raw("", "</div>", format="html"))  # before the caption
+
+
+def _read_again(app: Sphinx, env, added: set, changed: set, removed: set) -> list[str]:
+    """Pages with views of the playground name its files with their checksums, as its own page does."""
+    return [name for name, metadata in env.metadata.items() if "live" in metadata and name not in removed]
+
+
+def _load(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
+    if "live" in app.env.metadata.get(pagename, {}):
+        checksum = zlib.crc32(Path(app.outdir, "_static", SCRIPT).read_bytes())
+        bundle = context["pathto"](f"_static/{SCRIPT}", resource=True)
+        app.add_js_file(LIVE, defer="defer", **{"data-bundle": f"{bundle}?v={checksum:08x}"})
+        app.add_css_file(STYLE)
+
+
 def setup(app: Sphinx) -> ExtensionMetadata:
     app.add_directive("shown", Shown)
     app.add_transform(FigureMetadata)
     app.add_post_transform(ArrangedFigures)
+    app.add_directive("live", Live)
+    app.add_post_transform(LiveFigures)
+    app.connect("env-get-outdated", _read_again)
+    app.connect("html-page-context", _load)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -13,8 +13,10 @@ PAGE = "book/playground"
 SCRIPT, STYLE = "playground/bundle.js", "playground/playground.css"  # in _static
 _START = """
 (() => {
+  const element = document.getElementById("playground"); // chapters have figures instead
+  if (!element) return;
   const { mount, makeWorker } = playground();
-  mount(document.getElementById("playground"), { makeWorker, address: window });
+  mount(element, { makeWorker, address: window });
 })();
 """
 

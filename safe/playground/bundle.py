@@ -18,7 +18,7 @@ from typing import NamedTuple
 from safe.maze_files import MAZE_FOLDER, maze_names
 
 FOLDER = Path(__file__).with_name("javascript")
-ENTRIES = ("playground.js", "worker.js")  # export `mount`, which shows the playground, and `serve`, for its workers
+ENTRIES = ("playground.js", "figure.js", "worker.js")  # export `mount` and `mountFigure`, and `serve` for workers
 
 _FROM = re.compile(r'^(import|export)\s*\{([^{}]*)\}\s*from\s*"\./([^"/]+)";[^\S\n]*\n?', re.MULTILINE)
 _DECLARATION = re.compile(

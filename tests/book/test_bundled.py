@@ -1,4 +1,4 @@
-"""The playground in the book: a script that one page loads, and pictures in place of its widget."""
+"""The playground in the book: a script that its page and chapters load, and pictures in place of its widget."""
 
 import json
 
@@ -7,12 +7,14 @@ import pytest
 from safe.playground import bundle
 from tests.helpers.browser import complaints_of, needs_browser
 from tests.helpers.checkout import execute, output_of
+from tests.helpers.playground_page import FIGURES
 
 
-def test_only_its_page_loads_it(html):
+def test_only_its_page_and_chapters_with_its_figures_load_it(html):
+    loading = {"playground", *FIGURES}
     for file in ("bundle.js", "playground.css"):
         loaded_by = [page for page in html.rglob("*.html") if f"_static/playground/{file}" in page.read_text()]
-        assert loaded_by == [html / "book" / "playground.html"]
+        assert sorted(loaded_by) == sorted(html / "book" / f"{name}.html" for name in loading)
     assert (html / "_static" / "playground" / "bundle.js").read_text().startswith(bundle.script())
 
 

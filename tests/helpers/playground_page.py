@@ -6,6 +6,13 @@ from decimal import ROUND_HALF_UP, Context
 import safe
 from tests.helpers.addresses import maze_of
 
+FIGURES = {  # in chapters, by their pages; each with its view
+    "robot": {"fig-readings": "drive", "fig-three-weights": "drive"},
+    "objective": {"fig-pocket": "watch"},
+    "novelty": {"fig-crowded": "watch", "fig-memory": "watch"},
+    "safe": {"fig-coefficients-over-time": "watch", "fig-scales": "watch"},
+    "experiments": {"fig-how-many": "runs"},
+}
 VIEWS = {"watch": "Watch", "drive": "Drive", "draw": "Draw", "runs": "Many runs"}
 QUICK = "population=20&objectives=20&generations=30"
 QUICK_PARAMETERS = safe.Parameters(population=20, objectives=20, generations=30)

@@ -194,5 +194,8 @@ def test_the_mazes_of_the_package_are_a_module(write):
 @needs_node
 def test_the_playground_is_bundled():
     text = bundle.script()
-    parts = node(text + "const { mount, serve, makeWorker, ...more } = playground(); console.log(Object.keys(more));")
+    parts = node(
+        text
+        + "const { mount, mountFigure, serve, makeWorker, ...more } = playground(); console.log(Object.keys(more));"
+    )
     assert parts == "[]\n"

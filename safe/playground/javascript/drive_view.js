@@ -28,21 +28,22 @@ const STEP_TIME = 60; // milliseconds between two steps
 const DIRECTIONS = { right: [0, 1], left: [0, -1], down: [1, 0], up: [-1, 0] };
 
 export class DriveView {
-  constructor({ store, problem, makeWorker }) {
+  /** weights: the numbers, from 1, of those whose sliders take the place of the table; the robot is then at its end. */
+  constructor({ store, problem, makeWorker, weights = [] }) {
     this.store = store;
-    this.step = 0;
+    this.step = weights.length > 0 ? Infinity : 0;
     this.timer = null;
     this.walker = null; // has walked the path that is shown
     this.view = new MazeView({ class: "drive-maze" });
     this.presets = new PresetChoice(store, problem, makeWorker);
     this.weights = new WeightTable((i, weight) => this.#setWeight(i, weight));
-    this.playButton = makeButton("Play", () => (this.timer ? this.pause() : this.#play()), { class: "primary" });
+    this.playButton = makeButton("Play", () => (this.isPlaying ? this.pause() : this.play()), { class: "primary" });
     const oninput = () => this.#goTo(this.slider.valueAsNumber);
     this.slider = make("input", { type: "range", min: 0, step: 1, oninput });
     this.position = make("p", { class: "status" });
     this.announcement = makeAnnouncement(); // the position, but not while one step follows another
     this.outcome = make("p", { class: "outcome" });
-    this.element = make("div", { class: "columns" }, this.#makePathSide(), this.#makeWeightSide());
+    this.element = make("div", { class: "columns" }, this.#makePathSide(), this.#makeWeightSide(weights));
   }
 
   #makePathSide() {
@@ -61,7 +62,8 @@ export class DriveView {
     );
   }
 
-  #makeWeightSide() {
+  #makeWeightSide(chosen) {
+    if (chosen.length > 0) return makeBlock(...this.weights.alone(chosen));
     return makeBlock(labelled("Weights", this.presets.element), this.presets.explanation, this.weights.element);
   }
 
@@ -70,8 +72,12 @@ export class DriveView {
     if (names.some((name) => ["maze", "controller", "parameters", "view"].includes(name))) this.#walk();
   }
 
+  get isPlaying() {
+    return this.timer !== null;
+  }
+
   pause() {
-    if (this.timer) this.#announce();
+    if (this.isPlaying) this.#announce();
     clearInterval(this.timer);
     this.timer = null;
     this.playButton.textContent = "Play";
@@ -126,7 +132,7 @@ export class DriveView {
     this.announcement.textContent = this.position.textContent;
   }
 
-  #play() {
+  play() {
     if (this.step === this.walker.steps) this.#goTo(0);
     this.playButton.textContent = "Pause";
     this.timer = setInterval(() => this.#goTo(this.step + 1), prefersLessMotion() ? 10 * STEP_TIME : STEP_TIME);

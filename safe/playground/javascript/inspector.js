@@ -46,14 +46,15 @@ export class Inspector {
   #describe({ panel, individual, inspection }) {
     const { ends } = panel.latest;
     const { endpoint: [row, column], distance, novelty, fitness, controller } = inspection;
-    const lines = [`Robot ${individual} ended at row ${row}, column ${column}, ${cellsText(distance)} from the goal.`];
-    if (novelty !== null) lines.push(noveltyText(inspection));
-    lines.push(fitness !== null ? fitnessText(inspection) : nobodyText(panel.latest));
+    const place = `Robot ${individual} ended at row ${row}, column ${column}, ${cellsText(distance)} from the goal.`;
+    const judgement = fitness !== null ? fitnessText(inspection) : nobodyText(panel.latest);
     const shares = sharesOf(inspection);
     return [
-      ...lines.map((line) => make("p", { class: "explanation" }, line)),
+      make("p", { class: "explanation" }, place),
+      ...(novelty !== null ? [make("p", { class: "explanation newness" }, noveltyText(inspection))] : []),
+      make("p", { class: "explanation judgement" }, judgement),
       ...(shares.length > 0 ? [makeSharesBar(shares)] : []),
-      ...(fitness !== null ? [make("p", {}, judgeText(inspection, panel))] : []),
+      ...(fitness !== null ? [make("p", { class: "judges" }, judgeText(inspection, panel))] : []),
       makeStandings(inspection.standings, ends.length),
       makeButton("Drive this robot", () => this.ondrive(controller)),
     ];

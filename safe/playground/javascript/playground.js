@@ -3,7 +3,8 @@
 // engine.js and what it exports are the science, as in the package. worker.js runs it beside the page, which asks it by
 // way of worker_client.js. The page has a state (state.js, kept in store.js), which is also in its address (address.js,
 // page_address.js), and a view for each tab (tabs.js): watch_view.js, drive_view.js, draw_view.js and runs_view.js. The
-// parts of a view are files, too. bundle.py makes one script of all modules, and says how they may import and export.
+// parts of a view are files, too. figure.js shows one view in a chapter. bundle.py makes one script of all modules, and
+// says how they may import and export.
 
 import { readAddress } from "./address.js";
 import { labelled, make } from "./dom.js";

@@ -28,10 +28,10 @@ export class RunsView {
     this.outcomes = []; // for each algorithm { algorithm, results }; see tally.js
     this.session = 0; // of the workers; what an earlier one answers is dropped
     this.excursion = null; // { algorithms, seed, watchedSeed } while one of these runs is watched
-    this.button = makeButton("Run", () => (this.isRunning ? this.pause() : this.#start()), { class: "primary" });
+    this.button = makeButton("Run", () => (this.isPlaying ? this.pause() : this.play()), { class: "primary" });
     this.chart = new LineChart("Success in %, with its 95 % interval", "runs");
     this.table = new OutcomeTable((algorithm, success) => this.#watch(algorithm, success));
-    this.verdict = make("p", { class: "note" });
+    this.verdict = make("p", { class: "note verdict" });
     this.announcement = makeAnnouncement(); // the verdict, at the end
     const settings = [makeAlgorithmChoice(store), makeSeedField(store, problem), makeParameterFields(store, problem)];
     this.element = makeBlock(
@@ -62,7 +62,7 @@ export class RunsView {
     this.#draw();
   }
 
-  get isRunning() {
+  get isPlaying() {
     return this.clients.length > 0;
   }
 
@@ -78,7 +78,7 @@ export class RunsView {
     this.pause();
   }
 
-  async #start() {
+  async play() {
     if (this.outcomes.length === 0) {
       const { algorithms } = this.settings;
       this.outcomes = algorithms.map((algorithm) => ({ algorithm, results: [] }));

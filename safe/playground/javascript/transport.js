@@ -21,7 +21,7 @@ export class Transport {
     this.#showSpeed();
     this.element = makeControls(
       this.playButton,
-      makeButton("One generation", onstep),
+      makeButton("One generation", onstep, { class: "step" }),
       makeButton("From the start", () => store.set({ generation: 0 })),
       labelled("Generation", this.generation),
       make("label", { class: "field" }, make("span", {}, "Speed"), this.slider, this.speedText),

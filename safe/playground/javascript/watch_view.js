@@ -34,7 +34,7 @@ export class WatchView {
 
     this.ondrive = (controller) => store.set({ controller, view: "drive" });
     this.transport = new Transport(store, problem, {
-      onplay: () => (this.isPlaying ? this.pause() : this.#play()),
+      onplay: () => (this.isPlaying ? this.pause() : this.play()),
       onstep: () => this.#step(),
     });
     this.announcement = makeAnnouncement();
@@ -48,7 +48,7 @@ export class WatchView {
     );
     this.goalsKey.hidden = true;
     this.inspector = new Inspector({
-      onselect: (i, individual) => this.#select(i, () => individual),
+      onselect: (i, individual) => this.select(i, () => individual),
       ondrive: this.ondrive,
     });
     const settings = [makeAlgorithmChoice(store), makeSeedField(store, problem), makeRunField(store, problem)];
@@ -72,6 +72,11 @@ export class WatchView {
     const isElsewhere = names.includes("generation") && state.generation !== this.group.generation;
     if (isOther || isElsewhere) this.isStale = true;
     if (this.isStale && state.view === "watch") this.#open();
+  }
+
+  /** What becomes part of the state once the view is paused. */
+  get reached() {
+    return { generation: Math.max(this.store.state.generation, this.group.generation) };
   }
 
   /** Stop playing once the generation that is being made is there. */
@@ -111,7 +116,7 @@ export class WatchView {
   }
 
   #makePanel(algorithm, i) {
-    const onpick = (cell) => this.#select(i, (panel) => panel.nearestTo(cell));
+    const onpick = (cell) => this.select(i, (panel) => panel.nearestTo(cell));
     return new RunPanel(algorithm, this.makeWorker, { onpick, ondrive: this.ondrive });
   }
 
@@ -129,7 +134,7 @@ export class WatchView {
     }
   }
 
-  async #play() {
+  async play() {
     if (this.group.isOver && this.group.generation > 0) this.store.set({ generation: 0 }); // which opens another group
     const { group } = this;
     this.#setPlaying(true);
@@ -186,7 +191,7 @@ export class WatchView {
   }
 
   /** Select a robot of the i-th algorithm: the one that `pick` finds in its panel once all workers rest. */
-  async #select(i, pick) {
+  async select(i, pick) {
     this.pause();
     const { group } = this, panel = group.panels[i];
     if (!await this.#isDone(group.work, group)) return;

@@ -40,6 +40,11 @@ export class WeightTable {
     );
   }
 
+  /** Sliders by the numbers of their weights, with their titles, to stand without the table. */
+  alone(numbers) {
+    return numbers.map((number) => this.sliders[number - 1].titled());
+  }
+
   #makeRow(title, i) {
     const weights = [this.sliders[i], this.sliders[i + SENSORS.length]];
     const cells = weights.map(({ element }) => make("td", {}, element));
@@ -63,6 +68,7 @@ export class WeightTable {
 /** A slider for a weight, which moves in steps of 0.01 by mouse and in larger ones by keyboard. */
 class WeightSlider {
   constructor(symbol, title, onchange) {
+    this.title = `${symbol}: ${title}`;
     const change = (weight) => onchange(Math.round(Math.min(1, Math.max(-1, weight)) * 100) / 100);
     this.number = make("output");
     this.slider = make("input", {
@@ -70,7 +76,7 @@ class WeightSlider {
       min: -1,
       max: 1,
       step: "any",
-      "aria-label": `${symbol}: ${title}`,
+      "aria-label": this.title,
       oninput: () => change(this.slider.valueAsNumber),
       onkeydown: (event) => {
         if (!Object.hasOwn(CHANGES, event.key)) return;
@@ -79,6 +85,12 @@ class WeightSlider {
       },
     });
     this.element = make("label", { class: "weight" }, make("span", {}, symbol), this.slider, this.number);
+  }
+
+  /** Its element, with the title in full. */
+  titled() {
+    this.element.firstChild.textContent = this.title;
+    return this.element;
   }
 
   show(weight) {
