@@ -7,6 +7,7 @@ rates of success (see `safe.results.statistics` and `safe.results.mixed`).
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cache
 
 import numpy as np
 import pandas as pd
@@ -189,7 +190,12 @@ def on_unseen_mazes(runs: int) -> pd.DataFrame:
 
 
 def tried() -> Counts:
-    """The counts of all that was tried on the design set, recorded runs of NSGA-II among them."""
+    """The counts of all that was tried on the design set."""
+    return _tried().copy()
+
+
+@cache  # of thousands of experiments
+def _tried() -> Counts:
     design = contest.tried(held_out.design_set(), contest.TRIED)
     return counts(design, evidence.runs(design.cells.values()))
 

@@ -209,28 +209,31 @@ def test_the_address_of_a_paused_run_has_its_generation(see):
     wait_for_generation(figure.page, "fig-pocket", 1)
     figure.get_by_role("button", name="Pause").click()
     figure.get_by_role("button", name="Play").wait_for()
-    figure.page.wait_for_function("document.querySelector('#fig-pocket .whole').href.includes('&generation=')")
+    figure.page.wait_for_function("document.querySelector('#fig-pocket .opener').href.includes('&generation=')")
     assert f"&generation={generation_of(figure)}" in link_of(figure)
 
 
-@pytest.mark.parametrize("device", [{"java_script_enabled": False}, {}], ids=["no script", "print"])
-@pytest.mark.parametrize("name", [name for _, name in ALL])
-def test_the_picture_is_there_without_the_view(browser, site, visit, see, name, device):
-    if device:
-        (page_name,) = (page for page, names in FIGURES.items() if name in names)
-        page = browser.new_page(**device)
-        page.goto(f"{site}book/{page_name}.html")
-    else:
-        page = see(name, reduced_motion="reduce").page
-        page.emulate_media(media="print")
-    image = page.locator(f"#{name} .live > img")
-    assert image.is_visible()
-    assert image.bounding_box()["height"] > 100
-    assert page.locator(f"#{name} .figure").is_hidden()
-    if device:
-        page.close()
-    else:
-        page.emulate_media(media="null")
+def is_alone(figure):
+    """Is the picture of a figure there, without the view?"""
+    image = figure.locator(".live > img")
+    return image.is_visible() and image.bounding_box()["height"] > 100 and figure.locator(".figure").is_hidden()
+
+
+@pytest.mark.parametrize("page_name", FIGURES)
+def test_pictures_are_there_without_a_script(browser, site, page_name):
+    page = browser.new_page(java_script_enabled=False)
+    page.goto(f"{site}book/{page_name}.html")
+    assert [name for name in FIGURES[page_name] if not is_alone(page.locator(f"#{name}"))] == []
+    page.close()
+
+
+@pytest.mark.parametrize("page_name", FIGURES)
+def test_pictures_are_printed(visit, page_name):
+    page = visit(page_name=f"book/{page_name}.html", reduced_motion="reduce")
+    figures = [scroll_to(page, name) for name in FIGURES[page_name]]
+    page.emulate_media(media="print")
+    assert all(map(is_alone, figures))
+    page.emulate_media(media="null")
 
 
 @pytest.mark.parametrize("viewport", [DESKTOP, PHONE], ids=["desktop", "phone"])
@@ -259,24 +262,29 @@ def test_nothing_shifts(visit, page_name, viewport):
     assert page.evaluate("window.shifts") == []
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("name", [name for _, name in ALL])
-def test_no_violation_of_accessibility(see, name, scheme):
-    figure = see(name, color_scheme=scheme, reduced_motion="reduce")
-    found = Axe().run(figure.page, context=f"#{name}", options={"preload": False}).response["violations"]
-    assert [(v["id"], [node["html"][:120] for node in v["nodes"]]) for v in found] == []
+@pytest.mark.parametrize("page_name", FIGURES)
+def test_no_violation_of_accessibility(visit, page_name):
+    page = visit(page_name=f"book/{page_name}.html", reduced_motion="reduce")
+    for name in FIGURES[page_name]:
+        scroll_to(page, name)
+        for scheme in ("light", "dark"):
+            page.emulate_media(color_scheme=scheme)
+            found = Axe().run(page, context=f"#{name}", options={"preload": False}).response["violations"]
+            assert [(name, scheme, v["id"], [node["html"][:120] for node in v["nodes"]]) for v in found] == []
 
 
-@pytest.mark.parametrize("name", [name for _, name in ALL])
-def test_on_a_phone_nothing_is_cut_off(see, name):
-    figure = see(name, viewport=PHONE, reduced_motion="reduce")
-    wider = figure.locator(".figure").evaluate(
-        """(root) => [...root.querySelectorAll("*")]
-            .filter((node) => node.checkVisibility() && !node.closest(".scroll table"))
-            .filter((node) => node.getBoundingClientRect().right > root.getBoundingClientRect().right + 1)
-            .map((node) => node.outerHTML.slice(0, 80))"""
-    )
-    assert wider == []
-    assert figure.page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
-    controls = figure.locator(":is(button, .whole):visible").all()
-    assert all(control.bounding_box()["height"] >= 24 for control in controls)
+@pytest.mark.parametrize("page_name", FIGURES)
+def test_on_a_phone_nothing_is_cut_off(visit, page_name):
+    page = visit(page_name=f"book/{page_name}.html", viewport=PHONE, reduced_motion="reduce")
+    for name in FIGURES[page_name]:
+        figure = scroll_to(page, name)
+        wider = figure.locator(".figure").evaluate(
+            """(root) => [...root.querySelectorAll("*")]
+                .filter((node) => node.checkVisibility() && !node.closest(".scroll table"))
+                .filter((node) => node.getBoundingClientRect().right > root.getBoundingClientRect().right + 1)
+                .map((node) => node.outerHTML.slice(0, 80))"""
+        )
+        assert wider == [], name
+        controls = figure.locator(":is(button, .opener):visible").all()
+        assert all(control.bounding_box()["height"] >= 24 for control in controls), name
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]

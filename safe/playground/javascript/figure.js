@@ -29,7 +29,7 @@ export function mountFigure(element, { address, parts, weights = [], robot = nul
   const view = new VIEW_OF[store.state.view]({ store, problem, makeWorker, weights });
   const playsAlone = store.state.view === "watch" && parts.includes("play") && !prefersLessMotion();
 
-  const link = make("a", { class: "whole" }, "Open in the playground");
+  const link = make("a", { class: "opener" }, "Open in the playground");
   const setLink = () => (link.href = `${href}#${writeAddress({ ...store.state, ...view.reached })}`);
   for (const event of ["pointerenter", "focus"]) link.addEventListener(event, setLink);
   const selectFirst = () => {
