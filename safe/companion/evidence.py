@@ -28,6 +28,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
 from contextlib import closing, nullcontext
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import zip_longest
 from pathlib import Path
 from types import ModuleType
@@ -240,17 +241,26 @@ def _record(collection: Collection) -> Record:
 
 def _text(collection: Collection, name: str, record: Record) -> str:
     """The text of a file of a record, which must be the one that was written."""
+    return lzma.decompress(_content(collection, name, record)).decode()
+
+
+def _content(collection: Collection, name: str, record: Record) -> bytes:
     try:
         content = (collection.folder / name).read_bytes()
     except OSError as error:
         raise _damaged(collection, name, checks.reason(error)) from None
     if hashlib.sha256(content).hexdigest() != record.files.get(name):
         raise _damaged(collection, name, f"its SHA-256 is not the one in {SUMMARY}")
-    return lzma.decompress(content).decode()
+    return content
 
 
 def _table(collection: Collection, name: str, record: Record) -> pd.DataFrame:
-    return _parsed(collection, name, _text(collection, name, record))
+    return _unpacked(collection, name, _content(collection, name, record)).copy()
+
+
+@lru_cache(maxsize=8)  # a notebook asks for the same files again and again
+def _unpacked(collection: Collection, name: str, content: bytes) -> pd.DataFrame:
+    return _parsed(collection, name, lzma.decompress(content).decode())
 
 
 def _parsed(collection: Collection, name: str, text: str) -> pd.DataFrame:

@@ -19,6 +19,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import combinations
 
 import numpy as np
@@ -294,6 +295,7 @@ def mean_over_mazes(values: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarr
     return values.mean(axis=0), low, high
 
 
+@lru_cache(maxsize=8)
 def _draws(n: int, samples: int) -> np.ndarray:
     """How many times each of n mazes is drawn, in samples of n with replacement; shape (samples, n)."""
     return np.random.default_rng(0).multinomial(n, np.full(n, 1 / n), samples)

@@ -34,7 +34,8 @@ SCALES = """() => {
   const shown = (element) => element.getClientRects().length > 0;
   return [
     ...[...document.querySelectorAll(".cut")].map((cut) => [cut, drawn(cut)]),
-    ...[...document.querySelectorAll("img.wide")].map((image) => [image, image.naturalWidth]),
+    // a view of the playground covers the pictures of live figures
+    ...[...document.querySelectorAll("img.wide:not(.live > img)")].map((image) => [image, image.naturalWidth]),
   ].filter(([element]) => shown(element))
     .map(([element, width]) => element.getBoundingClientRect().width / width);
 }"""
