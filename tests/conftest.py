@@ -20,6 +20,7 @@ FIRST = (
     "playground/test_widget_in_jupyterlab.py",
 )
 LAST = (
+    "book/test_live_figures.py",
     "book/test_playground_watch.py",
     "book/test_pages.py",
     "book/test_playground_drive_and_draw.py",
