@@ -258,6 +258,7 @@ def main():
     for name in ("PYTHONHOME", "PYTHONPATH"):  # packages of another Python
         os.environ.pop(name, None)
     os.environ["PYTHONUTF8"] = "1"  # also on Windows
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"  # processes run side by side, and their matrices are small
     os.environ["DENO_NO_UPDATE_CHECK"] = "1"
     os.chdir(Path(__file__).resolve().parent)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))

@@ -139,10 +139,12 @@ def runs(
         table = _table(collection, RUNS, record)
         table.insert(0, "run", table.groupby("experiment").cumcount())
         number_of = table.pop("experiment").to_numpy()
-        for experiment, number in numbers.items():
-            begin = np.searchsorted(number_of, number)
+        population = np.zeros(len(record.experiments), dtype=int)
+        population[[*numbers.values()]] = [experiment.parameters.population for experiment in numbers]
+        table["evaluations"] = (table.generation + 1) * population[number_of]
+        begins = np.searchsorted(number_of, [*numbers.values()])
+        for experiment, begin in zip(numbers, begins, strict=True):
             recorded = table[begin : begin + experiment.runs].reset_index(drop=True)
-            recorded["evaluations"] = (recorded.generation + 1) * experiment.parameters.population
             if experiment.algorithm.objectives == ():  # nobody judges, so there are no coefficients
                 recorded = recorded.drop(columns=[*collection.coefficients])
             found[experiment] = recorded
