@@ -68,6 +68,7 @@ def test_mazes_and_algorithms_that_share_a_name_are_told_apart_by_digests():
             parameters=st.sampled_from([safe.Parameters(), safe.Parameters(k=3), safe.Parameters(k=3, steps=9)]),
         ),
         unique=True,
+        max_size=6,
     )
 )
 def test_no_two_experiments_have_the_same_label(experiments):
