@@ -298,11 +298,9 @@ def start_run(
         raise ValueError(f"parameters must be a Parameters; got {checks.shown(parameters)}")
     rng = np.random.Generator(np.random.SFC64(seed_sequence(seed)))
 
-    genomes = np.empty((parameters.population, WEIGHTS))
-    draw_genomes(rng, -1.0, 1.0, genomes)
+    genomes = -1 + 2 * rng.random((parameters.population, WEIGHTS))  # as `draw_genomes`, but without compiling it
     if algorithm.objectives is None:
-        objectives = np.empty((parameters.objectives, algorithm.genes))
-        draw_genomes(rng, 0.0, 1.0, objectives)
+        objectives = rng.random((parameters.objectives, algorithm.genes))
     else:
         objectives = np.array(algorithm.objectives, dtype=np.float64).reshape(-1, algorithm.genes)
     evolving = algorithm.rating != "none"

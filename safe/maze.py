@@ -19,7 +19,6 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
-from scipy import ndimage, sparse
 
 from safe import checks
 
@@ -96,8 +95,7 @@ class Maze:
         goal = _open_cell("goal", self.goal, walls)
         if start == goal:
             raise ValueError(f"goal must differ from the start; got {goal} for both")
-        regions, _ = ndimage.label(~walls)
-        if regions[start] != regions[goal]:
+        if not _are_connected(start, goal, walls):
             raise ValueError(
                 f"goal must be reachable from the start {start} through open cells; got {goal}, cut off by walls"
             )
@@ -208,6 +206,8 @@ def ways_to_goal(maze: Maze) -> np.ndarray:
     >>> ways_to_goal(Maze.from_drawing("S#G\\n...")).tolist()
     [[4, -1, 0], [3, 2, 1]]
     """
+    from scipy import sparse  # few programs need it, and its import takes longer than all others
+
     cells = np.arange(maze.walls.size).reshape(maze.shape)
     pairs = []
     for one, other in ((np.s_[:, :-1], np.s_[:, 1:]), (np.s_[:-1], np.s_[1:])):  # side by side, one above the other
@@ -217,6 +217,22 @@ def ways_to_goal(maze: Maze) -> np.ndarray:
     steps = sparse.csr_array((np.ones(len(first)), (first, second)), shape=(cells.size, cells.size))
     ways = sparse.csgraph.dijkstra(steps, directed=False, indices=cells[maze.goal], unweighted=True)
     return np.where(np.isinf(ways), -1, ways).astype(int).reshape(maze.shape)
+
+
+def _are_connected(start: tuple[int, int], goal: tuple[int, int], walls: np.ndarray) -> bool:
+    """Does a way through open cells lead from start to goal? Without scipy, whose import takes longer."""
+    width = walls.shape[1] + 2
+    is_new = np.pad(~walls, 1).ravel().tolist()
+    first, last = ((row + 1) * width + column + 1 for row, column in (start, goal))
+    waiting = [first]
+    is_new[first] = False
+    while waiting and is_new[last]:
+        cell = waiting.pop()
+        for neighbour in (cell - width, cell - 1, cell + 1, cell + width):
+            if is_new[neighbour]:
+                is_new[neighbour] = False
+                waiting.append(neighbour)
+    return not is_new[last]
 
 
 def _open_cell(name: str, cell: object, walls: np.ndarray) -> tuple[int, int]:

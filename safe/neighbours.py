@@ -83,18 +83,21 @@ def sort_into_cells(
     gaps = np.zeros(len(ends), dtype=np.int64)  # the place of the next point of each cell
     for j in range(size):
         cells[j] = _cell_along(grid, 0, unsorted[0, j]) * grid.sides[1] + _cell_along(grid, 1, unsorted[1, j])
-        gaps[cells[j] + 1] += 1
+    for j in range(size):  # not in the loop above, so that the processor computes several cells at once
+        gaps[index(cells[j] + 1)] += 1
     ends[0] = 0
     for cell in range(1, len(ends)):
         gaps[cell] += gaps[cell - 1]
         ends[cell] = gaps[cell]
     for j in range(size):
-        place = gaps[cells[j]]
-        gaps[cells[j]] += 1
-        for axis in range(dimensions):
-            members[axis, place] = unsorted[axis, j]
-        if j >= n:
-            places[j - n] = place
+        cell = index(cells[j])
+        cells[j] = gaps[cell]  # from here on, the place of the point
+        gaps[cell] += 1
+    for axis in range(dimensions):
+        for j in range(size):
+            members[axis, index(cells[j])] = unsorted[axis, j]
+    for j in range(n, size):
+        places[j - n] = cells[j]
     return size
 
 
@@ -128,16 +131,18 @@ def look_around(
         left, right = _cell_along(grid, 1, point[1] - margin), _cell_along(grid, 1, point[1] + margin)
         is_all = (bottom - top + 1) * (right - left + 1) == rows * columns
         limit = np.inf if is_all else _along_axis(reach, taxicab)
-        found = _measure(point, members, in_cells, size, taxicab, limit, distances, np.int64(0))
-        for row in range(top, bottom + 1):
-            start, end = ends[row * columns + left], ends[row * columns + right + 1]
+        found = np.int64(0)
+        for row in range(top - 1, bottom + 1):  # first the newcomers, then row by row
+            start, end = in_cells, size
+            if row >= top:
+                start, end = ends[row * columns + left], ends[row * columns + right + 1]
             found = _measure(point, members, start, end, taxicab, limit, distances, found)
         if is_all or found >= wanted:
             return found
         reach *= max(1.25, math.sqrt(wanted / (found + 1)))
 
 
-@kernel
+@kernel(inline="always")
 def _measure(
     point: np.ndarray,
     members: np.ndarray,

@@ -1,5 +1,8 @@
 import itertools
 import json
+import os
+import subprocess
+import sys
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
@@ -275,3 +278,16 @@ def test_choices_beyond_the_paper_are_known(algorithm, parameters, expected):
     assert has_choices(get_algorithm(algorithm), parameters) == expected
     *_, choices, _ = start_run("maze1", algorithm, 1, parameters)
     assert (choices is not None) == expected
+
+
+def test_starting_a_run_compiles_nothing(tmp_path):
+    """All compiling is done by `compile_kernels`, which shows it."""
+    code = """
+from numba.core import event
+from safe.evolution import Parameters, start_run
+with event.install_recorder("numba:compile") as compiled:
+    start_run("maze1", "safe", 1, Parameters())
+assert not compiled.buffer
+"""
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
+    subprocess.run([sys.executable, "-c", code], env=environment, check=True)

@@ -29,12 +29,15 @@ def by_integration(parameters, successes, other, runs):
 def test_the_likelihood_is_that_of_numerical_integration(parameters):
     pairs = np.column_stack([SUCCESSES, OTHERS]).astype(float)
     for pair in pairs:
-        value, _ = mixed._marginal_likelihood(np.array(parameters), pair[np.newaxis], np.full((1, 2), 20.0))
+        value, _ = mixed._marginal_likelihood(
+            np.array(parameters), pair[np.newaxis], np.full((1, 2), 20.0), np.zeros((1, 2))
+        )
         assert value == pytest.approx(by_integration(parameters, *pair, 20), abs=2e-4)
-    whole, gradient = mixed._marginal_likelihood(np.array(parameters), pairs, np.full_like(pairs, 20))
+    modes = np.zeros_like(pairs)
+    whole, gradient = mixed._marginal_likelihood(np.array(parameters), pairs, np.full_like(pairs, 20), modes)
 
     def likelihood(changed):
-        return mixed._marginal_likelihood(changed, pairs, np.full_like(pairs, 20))[0]
+        return mixed._marginal_likelihood(changed, pairs, np.full_like(pairs, 20), modes)[0]
 
     assert np.isfinite(whole)
     assert gradient == pytest.approx(optimize.approx_fprime(np.array(parameters), likelihood, 1e-6), abs=2e-3)
