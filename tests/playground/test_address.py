@@ -1,7 +1,9 @@
 """Addresses say what they are addresses of: read again, they give the same maze, the same algorithm, the same run."""
 
 import json
+import re
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ from tests.helpers.addresses import algorithm_of, maze_of, run_at, values_of
 from tests.helpers.strategies import controllers, mazes
 from tests.helpers.twin import NODE, needs_node
 
+ROOT = Path(__file__).parents[2]
 FEW = safe.Parameters(population=20, objectives=10, generations=3, elites=0, mutation=0.25)
 MORE = safe.Parameters(20, 10, 3, elites=0, admission="threshold", admitted=7, threshold=0.00001)
 LATER = safe.Parameters(20, 10, 3, elites=0, archive=30, admission="after scoring", patience=2)
@@ -129,6 +132,26 @@ def test_the_page_reads_and_writes_the_same_addresses():
         "algorithm must be a name, or name:rating:a,b,..., perhaps with :scaling:judging, and then :kind:pool:compo"
     )
     assert [message[: len(refusal)] for message in found[len(SAME) :]] == [refusal] * len(WRONG)
+
+
+@needs_node
+def test_the_page_reads_every_address_that_a_text_of_the_book_links_to():
+    texts = [*(ROOT / "book").glob("*.md"), *(ROOT / "notebooks").glob("*.ipynb")]
+    link = re.compile(r'href=\\?"(?:[\w./]*playground\.html)?#(view=[^"\\]*)')
+    addresses = [address for text in texts for address in link.findall(text.read_text(encoding="utf-8"))]
+    assert len(addresses) > 20
+    script = f"""{bundle.script(("address.js",))}
+        const {{ readAddress }} = playground();
+        const refusal = (address) => {{
+            try {{
+                readAddress(address);
+            }} catch (error) {{
+                return `${{address}}: ${{error.message}}`;
+            }}
+        }};
+        console.log(JSON.stringify({json.dumps(addresses)}.map(refusal).filter((text) => text)));"""
+    found = subprocess.run([NODE, "-"], input=script, capture_output=True, text=True, check=True).stdout
+    assert json.loads(found) == []
 
 
 @given(maze=mazes(), controller=controllers())
