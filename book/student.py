@@ -19,23 +19,22 @@ from pathlib import Path
 import nbformat
 import yaml
 
-from executed import EXECUTED, ROOT, STAMP, notebooks
+from executed import EXECUTED, ROOT, SOLUTION, STAMP, notebooks
 
 PARTS = ("benchmarks", "book", "notebooks", "safe")
 STUDENT = ROOT / "_build" / "student"
 COPY = STUDENT / "project"
-SOLUTION = re.compile(r"^(`{3,}|:{3,})\{solution\}.*?^\1[ \t]*(?:\n+|\Z)", re.DOTALL | re.MULTILINE)
-TAG = "solution"  # of a notebook's cell that is one
+BLOCK = re.compile(r"^(`{3,}|:{3,})\{solution\}.*?^\1[ \t]*(?:\n+|\Z)", re.DOTALL | re.MULTILINE)
 
 
 def without_solutions(text: str) -> str:
     """A page, or the text of a cell, without its `{solution}` blocks."""
-    return SOLUTION.sub("", text).rstrip() + "\n" if SOLUTION.search(text) else text
+    return BLOCK.sub("", text).rstrip() + "\n" if BLOCK.search(text) else text
 
 
 def notebook_without_solutions(notebook: nbformat.NotebookNode) -> nbformat.NotebookNode:
     """A notebook, clean or executed, without its cells that are solutions, and without solutions in its texts."""
-    notebook.cells = [cell for cell in notebook.cells if TAG not in cell.metadata.get("tags", [])]
+    notebook.cells = [cell for cell in notebook.cells if SOLUTION not in cell.metadata.get("tags", [])]
     for cell in notebook.cells:
         if cell.cell_type == "markdown":
             cell.source = without_solutions(cell.source)
