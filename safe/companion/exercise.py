@@ -20,7 +20,7 @@ def check(test: Callable[[], None]) -> Callable[[], None]:
     ... def check_double():
     ...     assert double(2) == 4, f"double(2) should be 4, and is {double(2)}"
     >>> check_double()
-    Not yet. Replace the line that raises NotImplementedError, and run both cells again.
+    Not yet. A function is still to be written.
     >>> def double(number):
     ...     return number + number
     >>> check_double()
@@ -32,7 +32,7 @@ def check(test: Callable[[], None]) -> Callable[[], None]:
         try:
             test()
         except NotImplementedError:
-            print("Not yet. Replace the line that raises NotImplementedError, and run both cells again.")
+            print("Not yet. A function is still to be written.")
         else:
             print("Right.")
 

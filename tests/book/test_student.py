@@ -55,7 +55,6 @@ Another one.
 {MARK}
 :::
 """
-PLACEHOLDER = "# {name}\n\nA page that another one refers to, with some words.\n"
 TOC = """format: jb-book
 root: book/playground
 chapters:
@@ -129,7 +128,10 @@ def small(checkout, tmp_path_factory):
     (project / "book" / "_toc.yml").write_text(TOC)
     (project / "book" / "playground.md").write_text(PAGE)
     for name in ("robot", "fast"):
-        (project / "book" / f"{name}.md").write_text(PLACEHOLDER.format(name=name))
+        title = (checkout / "book" / f"{name}.md").read_text().splitlines()[0]
+        (project / "book" / f"{name}.md").write_text(
+            f"{title}\n\nA page to which the notebook refers, with few words.\n"
+        )
     made = build_for_students(project)
     assert made.returncode == 0, output_of(made)
     return project / "_build" / "student"
