@@ -87,12 +87,14 @@ def _write(file: Path, content: bytes, source: Path) -> None:
 
 def main() -> int:
     """Build the student edition; gives the exit status of the build."""
-    html, notebooks_made = STUDENT / "html", STUDENT / "notebooks"
-    made = COPY / "_build" / "html"
+    html, made = STUDENT / "html", COPY / "_build" / "html"
     copy_project()
-    shutil.rmtree(notebooks_made, ignore_errors=True)
-    shutil.copytree(COPY / "notebooks", notebooks_made, ignore=lambda _, names: [n for n in names if "ipynb" not in n])
-    if html.exists() and not made.exists():  # the build goes on from what the last one has made
+    shutil.rmtree(STUDENT / "notebooks", ignore_errors=True)
+    (STUDENT / "notebooks").mkdir()
+    for notebook in notebooks():
+        shutil.copy2(COPY / "notebooks" / notebook.name, STUDENT / "notebooks")
+    if html.exists():  # the build goes on from what the last one has made
+        shutil.rmtree(made, ignore_errors=True)
         html.rename(made)
     status = subprocess.run([sys.executable, "book/build.py"], cwd=COPY).returncode
     if status == 0:

@@ -137,7 +137,7 @@ def small(checkout, tmp_path_factory):
     return project / "_build" / "student"
 
 
-def lines_of(notebook):
+def solved_lines(notebook):
     """The lines of a notebook's solutions that stand nowhere else in it."""
     cells = json.loads(notebook.read_text())["cells"]
     kept, solved = (
@@ -148,7 +148,7 @@ def lines_of(notebook):
 
 
 def test_no_file_of_the_edition_holds_a_line_of_a_solution(small):
-    solved = [line for line in lines_of(ROOT / "notebooks" / "exercise-robot.ipynb") if len(line) > 20]
+    solved = [line for line in solved_lines(ROOT / "notebooks" / "exercise-robot.ipynb") if len(line) > 20]
     assert len(solved) > 20
     found = [file for folder in ("html", "notebooks") for file in (small / folder).rglob("*") if file.is_file()]
     files = [file for file in found if "_static" not in file.parts]
@@ -166,9 +166,10 @@ def test_exercises_hints_and_checks_stay(small):
     assert (small / "html" / "notebooks" / "exercise-robot.html").read_text().count("Not yet.") == 4
 
 
-def test_the_page_of_a_notebook_is_that_of_the_book_without_its_solutions(small, html_of_book):
+def test_the_page_of_a_notebook_is_that_of_the_book_without_its_solutions(small, checkout):
     name = "notebooks/exercise-robot.html"
-    ours, full = (article_of((folder / name).read_text()) for folder in (small / "html", html_of_book))
+    folders = small / "html", checkout / "_build" / "html"
+    ours, full = (article_of((folder / name).read_text()) for folder in folders)
     position = 0
     for line in ours:
         assert line in full[position:], line
@@ -180,11 +181,6 @@ def article_of(page):
     article = re.search("<article.*</article>", page, re.DOTALL).group()
     lines = html.unescape(re.sub("<[^>]*>", "", article)).splitlines()
     return [line.strip() for line in lines if line.strip()]
-
-
-@pytest.fixture
-def html_of_book(checkout):
-    return checkout / "_build" / "html"
 
 
 def test_notebooks_to_download_are_those_with_cells_to_fill(small):
