@@ -48,6 +48,13 @@ def book():
     print("The book: _build/html/index.html", flush=True)
 
 
+def student():
+    """the student edition: the book and its notebooks without the solutions of exercises"""
+    execute()
+    _run("python", "book/student.py")
+    print("The student edition: _build/student/html/index.html, and the notebooks beside it", flush=True)
+
+
 def pdf():
     """the book as a PDF, by xelatex (what to install: see CONTRIBUTING.md)"""
     execute()
@@ -139,7 +146,22 @@ def clean():
 
 STEPS = {
     step.__name__: step
-    for step in (env, execute, book, pdf, test, develop, bench, fuzz, evidence, format, picture, constraints, clean)
+    for step in (
+        env,
+        execute,
+        book,
+        student,
+        pdf,
+        test,
+        develop,
+        bench,
+        fuzz,
+        evidence,
+        format,
+        picture,
+        constraints,
+        clean,
+    )
 }
 
 

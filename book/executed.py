@@ -29,6 +29,7 @@ DEPENDENCIES = ("numpy", "numba", "scipy", "statsmodels", "pandas", "matplotlib"
 # of the package's files, unlike those of editors and systems
 SUFFIXES = (".py", ".csv", ".xz", ".json", ".jsonl", ".maze", ".mplstyle", ".html")
 STAMP = "executed_from"  # key in the metadata of an executed copy
+SOLUTION = "solution"  # tag of a cell that solves an exercise
 LEFT_OUT = (
     "text/csv",  # for book/tables.py alone
     "application/vnd.jupyter.widget-view+json",  # needs a kernel, and scripts from elsewhere; there is also a picture
@@ -121,6 +122,11 @@ def _swap_in(app: Sphinx, docname: str, source: list[str]) -> None:
         app.env.note_dependency(str(copy))
         notebook = json.loads(copy.read_text(encoding="utf-8"))
         for cell in notebook["cells"]:
+            if SOLUTION in cell["metadata"].get("tags", []):
+                cell["metadata"]["mystnb"] = {
+                    "code_prompt_show": "Show the solution",
+                    "code_prompt_hide": "Hide the solution",
+                }
             for output in cell.get("outputs", []):
                 for kind in LEFT_OUT:
                     output.get("data", {}).pop(kind, None)

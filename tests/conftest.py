@@ -29,6 +29,8 @@ LAST = (
     "book/test_playground_in_firefox.py",
     "book/test_links.py",
     "book/test_bundled.py",
+    "book/test_student.py",
+    "book/test_exercises.py",
 )
 
 

@@ -44,6 +44,11 @@ def build(folder, *arguments, **options):
     return _call(folder, sys.executable, "book/build.py", *arguments, **options)
 
 
+def build_for_students(folder):
+    """Run book/student.py in a checkout."""
+    return _call(folder, sys.executable, "book/student.py")
+
+
 def _call(folder, *command, runs=RUNS, **settings):
     environment = {**os.environ, **settings, "RUNS": runs, "NO_COLOR": "1"}
     return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)

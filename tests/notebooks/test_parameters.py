@@ -37,6 +37,7 @@ BAD = {  # parameter: value, what the error says
     "points": ("0,0 1", "points must be two or more of row,column, separated by blanks; got '0,0 1'"),
     "algorithm": ("best", "algorithm must be one of 'standard', .*'weighing-and-goals'; got 'best'"),
     "traced": (-1, "traced must be an integer of at least 0; got -1"),
+    "trials": (0, "trials must be an integer of at least 1; got 0"),
     "repeats": (-1, "repeats must be an integer of at least 0; got -1"),
 }
 
@@ -84,7 +85,7 @@ S...#....
 ...#...#G
 """
 MEASURED = str(Path(__file__).parents[2] / files.MEASUREMENTS)
-SMALL = {"runs": 2, "repeats": 1, "row": 0, "column": 2, "paths": 2}
+SMALL = {"runs": 2, "trials": 2, "repeats": 1, "row": 0, "column": 2, "paths": 2}
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
