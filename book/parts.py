@@ -1,4 +1,4 @@
-"""The parts of the table of contents in a PDF, where Sphinx would leave them out; chapters are numbered as on pages."""
+"""The parts of the table of contents in a PDF, where Sphinx would leave them out; all is numbered as on the pages."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from sphinx.transforms import SphinxTransform
 from sphinx.util.texescape import escape
 from sphinx.util.typing import ExtensionMetadata
 
-CHAPTERS, NOTHING = 0, -1  # that has numbers: LaTeX's secnumdepth
+NUMBERED = r"\setcounter{secnumdepth}{0}"  # chapters, not sections
+UNNUMBERED = r"\setcounter{secnumdepth}{-1}\setcounter{chapter}{0}\setcounter{table}{0}"
 
 
 class Parts(SphinxTransform):
@@ -18,9 +19,9 @@ class Parts(SphinxTransform):
     def apply(self, **kwargs: object) -> None:
         for toctree in list(self.document.findall(addnodes.toctree)):
             if toctree.get("caption"):
-                numbered = CHAPTERS if toctree["numbered"] else NOTHING
-                command = rf"\setcounter{{secnumdepth}}{{{numbered}}}\part{{{escape(toctree['caption'])}}}"
-                toctree.parent.insert(toctree.parent.index(toctree), nodes.raw("", command, format="latex"))
+                numbering = NUMBERED if toctree["numbered"] else UNNUMBERED
+                part = nodes.raw("", rf"{numbering}\part{{{escape(toctree['caption'])}}}", format="latex")
+                toctree.parent.insert(toctree.parent.index(toctree), part)
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:

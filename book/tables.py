@@ -120,7 +120,9 @@ def _keep_whole(cell: nodes.entry) -> None:
     """Let no line end within an interval or a count."""
     for text in list(cell.findall(nodes.Text)):
         parts = re.split(f"({WHOLE.pattern})", text.astext())
-        kept = [nodes.inline("", part, classes=["whole"]) if i % 2 else nodes.Text(part) for i, part in enumerate(parts)]
+        kept = [
+            nodes.inline("", part, classes=["whole"]) if i % 2 else nodes.Text(part) for i, part in enumerate(parts)
+        ]
         text.parent.replace(text, kept)
 
 
