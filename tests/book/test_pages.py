@@ -45,7 +45,7 @@ WATCH_SHIFTS = """
     for (const { value } of list.getEntries()) window.shifted += value;
   }).observe({ type: "layout-shift", buffered: true });
 """
-STILL = 0.005  # of the page, of which moving parts are not noticed
+STILL = 0.02  # shift of a page as it loads (Layout Instability) that is not noticed
 QUIET = 0.5  # seconds without a request, after which pages have loaded all they want
 
 
