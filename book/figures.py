@@ -11,6 +11,10 @@ A chapter shows a figure of a notebook where its argument needs it, with a capti
 A figure that a notebook shows by `safe.companion.notebook.show_figure` has links, which travel beside its image as
 metadata of the output. On the page each is an area over its part of the image. Print has the image alone.
 
+Every image on a page says how large it is, so that nothing moves when it is there.
+
+Every image of a page states its size, so that nothing moves once it is loaded.
+
 Where the panels of a figure are travels there, too. A narrow page shows the same image once for each panel and each
 entry of the legend, cut to it, one below the other (see `book.css`).
 
@@ -36,6 +40,7 @@ from __future__ import annotations
 import base64
 import html
 import json
+import re
 import zlib
 from pathlib import Path
 from typing import ClassVar
@@ -64,6 +69,8 @@ BOX = (
     "down",
 )  # in book.css: in fractions of an image, and its size in points
 LIVE = "live.js"
+SIZE = re.compile(r'<svg [^>]*width="([\d.]+)pt" height="([\d.]+)pt"')  # as Matplotlib writes it
+PIXELS = 96 / 72  # in a point
 
 
 class Shown(SphinxDirective):
@@ -202,6 +209,21 @@ def _metadata(output: dict) -> dict:
     return output.get("metadata", {}).get("image/svg+xml", {})
 
 
+class SizedImages(SphinxPostTransform):
+    """On the page an image has its width and height, in pixels."""
+
+    default_priority = 690  # before there are panels
+    formats = ("html",)
+
+    def run(self, **kwargs: object) -> None:
+        for image in self.document.findall(nodes.image):
+            file = image["candidates"].get("image/svg+xml", image["uri"])
+            size = SIZE.search(Path(self.app.srcdir, file).read_text(encoding="utf-8"))
+            width, height = (PIXELS * float(side) for side in size.groups())
+            shown = float(image.get("width", f"{width}px").removesuffix("px"))
+            image["width"], image["height"] = f"{shown:.0f}", f"{shown * height / width:.0f}"
+
+
 class LiveFigures(SphinxPostTransform):
     """On the page the image stands in the box of the view."""
 
@@ -234,6 +256,7 @@ def _load(app: Sphinx, pagename: str, templatename: str, context: dict, doctree)
 def setup(app: Sphinx) -> ExtensionMetadata:
     app.add_directive("shown", Shown)
     app.add_transform(FigureMetadata)
+    app.add_post_transform(SizedImages)
     app.add_post_transform(ArrangedFigures)
     app.add_directive("live", Live)
     app.add_post_transform(LiveFigures)

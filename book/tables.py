@@ -4,13 +4,15 @@ A notebook cell whose metadata holds `table: {name, caption, stub, class}` shows
 itself. Here that CSV becomes a table of the document, with `stub` columns of headings (1 by default), and with a class
 for its looks beside `results`. It can be referred to by its name, and is a table in print as well. Nothing in it is
 read as markup. Only the page shows the links of its rows to the playground (see `safe.companion.notebook.show_table`).
-A page that is too narrow for a table shows a card for each row, on which every cell has its heading beside it.
+A page that is too narrow for a table shows a card for each row, on which every cell has its heading beside it, and of
+many cards the first few, until the reader asks for all.
 """
 
 from __future__ import annotations
 
 import csv
 import json
+import re
 
 from docutils import nodes
 from sphinx import addnodes
@@ -25,9 +27,11 @@ from executed import EXECUTED, ROOT
 from playground import PAGE as PLAYGROUND
 
 TABLES = EXECUTED / "tables"
-WIDEST = 30  # characters of a column that count for its width in print
+PRINTED = 100  # characters that stand side by side in print
 LONG = 32  # characters from which on a cell is text, which needs room
 PHONE = 44  # characters that stand side by side on a phone, with 2 between columns
+MANY = 8  # cards from which on the first few stand alone; see book.css
+WHOLE = re.compile(r"\([^()]*\),?|n = \S+|[\d,]+ of [\d,]+|< \S+")  # parts of a cell that are not broken
 
 
 class ResultTables(SphinxTransform):
@@ -80,7 +84,7 @@ class ResultTables(SphinxTransform):
 
 
 class LabelledTables(SphinxPostTransform):
-    """On the page every cell knows its heading, for cards, and columns of texts are marked.
+    """On the page every cell knows its heading, for cards, and columns of texts are marked, as are parts of numbers.
 
     The cells with their headings are what `_visit_entry` writes.
     """
@@ -89,20 +93,37 @@ class LabelledTables(SphinxPostTransform):
     formats = ("html",)
 
     def run(self, **kwargs: object) -> None:
-        for table in self.document.findall(nodes.table):
+        for table in list(self.document.findall(nodes.table)):
             if "results" not in table["classes"]:
                 continue
             head, *rows = [[*row.children] for row in table.findall(nodes.row)]
             headings = [cell.astext() for cell in head]
             widest = [max((len(cell.astext()) for cell in column), default=0) for column in zip(*rows, strict=True)]
             words = [max(map(len, heading.split()), default=0) for heading in headings]
-            if sum(max(min(width, LONG), word) + 2 for width, word in zip(widest, words, strict=False)) > PHONE:
+            if not rows:
+                table["classes"].append("empty")
+            elif sum(max(min(width, LONG), word) + 2 for width, word in zip(widest, words, strict=False)) > PHONE:
                 table["classes"].append("cards")
+                if len(rows) > MANY:
+                    switch = f'<label class="all-rows"><input type="checkbox"> Show all {len(rows)} rows</label>'
+                    table.parent.insert(table.parent.index(table) + 1, nodes.raw("", switch, format="html"))
             for row in rows:
                 for heading, width, cell in zip(headings, widest, row, strict=True):
                     cell["heading"] = heading
                     if width >= LONG:
                         cell["classes"].append("text")
+                    else:
+                        _keep_whole(cell)
+
+
+def _keep_whole(cell: nodes.entry) -> None:
+    """Let no line end within an interval or a count."""
+    for text in list(cell.findall(nodes.Text)):
+        parts = re.split(f"({WHOLE.pattern})", text.astext())
+        kept = [
+            nodes.inline("", part, classes=["whole"]) if i % 2 else nodes.Text(part) for i, part in enumerate(parts)
+        ]
+        text.parent.replace(text, kept)
 
 
 def _visit_entry(self: HTML5Translator, node: nodes.entry) -> None:
@@ -148,21 +169,38 @@ class LinkedTables(SphinxPostTransform):
 
 
 class PrintedTables(SphinxPostTransform):
-    """In print a table breaks between pages, its columns are as wide as their contents, and has no download."""
+    """In print a table breaks between pages, has columns of widths for which it is short, and has no download."""
 
     default_priority = 700
     formats = ("latex",)
 
     def run(self, **kwargs: object) -> None:
-        for table in self.document.findall(nodes.table):
+        for table in list(self.document.findall(nodes.table)):
             if "results" in table["classes"]:
                 table["classes"] += ["longtable", "colwidths-given"]
                 lines = [[cell.astext() for cell in row.children] for row in table.findall(nodes.row)]
-                for column, spec in enumerate(table.findall(nodes.colspec)):
-                    spec["colwidth"] = 5 + min(max(len(line[column]) for line in lines), WIDEST)
+                widths = _printed_widths(list(zip(*lines, strict=True)))
+                columns = (rf">{{\raggedright\arraybackslash}}\X{{{width}}}{{{sum(widths)}}}" for width in widths)
+                spec = addnodes.tabular_col_spec(spec="".join(columns))
+                table.parent.insert(table.parent.index(table), spec)
         for paragraph in list(self.document.findall(nodes.paragraph)):
             if "results-download" in paragraph["classes"]:
                 paragraph.parent.remove(paragraph)
+
+
+def _printed_widths(columns: list[tuple[str, ...]]) -> list[int]:
+    """Widths of columns, in characters: enough for the longest word, and more if many cells are long.
+
+    If rows are as high as the fourth powers of their cells' heights add up to, these are the widths for which a table
+    is lowest.
+    """
+    needed = [max(len(word) for cell in column for word in ["", *cell.split()]) for column in columns]
+    wanted = [sum(len(cell) ** 4 for cell in column) ** 0.2 for column in columns]
+    scale = PRINTED / sum(wanted)
+    return [
+        min(max(need, round(scale * want)), max(map(len, column))) + 3
+        for need, want, column in zip(needed, wanted, columns, strict=True)
+    ]
 
 
 def _row(texts: list[str]) -> nodes.row:

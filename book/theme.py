@@ -31,6 +31,13 @@ def _remove_thebe(app: Sphinx, pagename: str, templatename: str, context: dict, 
     context["script_files"] = [script for script in context.get("script_files", []) if not is_thebe(script)]
 
 
+def _remove_mathjax(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
+    """Remove MathJax, which is large, from pages without mathematics: Jupyter Book gives every page every script."""
+    if 'class="math' not in context.get("body", ""):
+        scripts = context.get("script_files", [])
+        context["script_files"] = [script for script in scripts if "mathjax" not in (script.filename or "")]
+
+
 def _remove_address(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
     """Without the book's address (`ogp_site_url`), no page can state its own."""
     if not app.config.ogp_site_url and "metatags" in context:
@@ -68,6 +75,7 @@ def _wrap_code(app: Sphinx, pagename: str, templatename: str, context: dict, doc
 def setup(app: Sphinx) -> ExtensionMetadata:
     app.connect("config-inited", _set_buttons)
     app.connect("html-page-context", _remove_thebe, priority=900)
+    app.connect("html-page-context", _remove_mathjax, priority=900)
     app.connect("html-page-context", _remove_address, priority=900)
     app.connect("html-page-context", _add_filter)
     app.connect("html-page-context", _wrap_code)

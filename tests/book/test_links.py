@@ -261,10 +261,12 @@ def test_downloaded_tables_have_no_links(checkout, linked):
 
 
 @pytest.mark.usefixtures("alone_in_checkout")
-def test_in_print_there_are_no_links_to_the_playground(checkout):
+def test_print_has_parts_and_no_links_to_the_playground(checkout):
     built = build(checkout, "--builder", "latex")
     assert built.returncode == 0, output_of(built)
     text = (checkout / "_build" / "latex" / "safe.tex").read_text()
+    captions = re.findall("caption: (.+)", (checkout / "book" / "_toc.yml").read_text())
+    assert re.findall(r"\\part\{(.+?)\}", text) == captions != []
     assert "tab-success" in text
     assert "playground.html" not in text
     assert "drive in maze1" not in text

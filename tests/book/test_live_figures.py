@@ -15,6 +15,9 @@ pytestmark = needs_browser
 ALL = [(page, name) for page, names in FIGURES.items() for name in names]
 LOW = {"width": 1280, "height": 500}  # a window in which no figure but the first of a page is near
 SCROLL = "node => window.scrollTo({ top: node.getBoundingClientRect().top + scrollY - 70, behavior: 'instant' })"
+LETTERS = """node => [...node.querySelectorAll(".chart text")].filter((text) => text.checkVisibility()).map((text) =>
+  parseFloat(getComputedStyle(text).fontSize) * Math.hypot(text.getScreenCTM().a, text.getScreenCTM().b))"""
+SMALLEST = 9  # pixels that can be read
 TWO_FRAMES = "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
 
 
@@ -183,9 +186,8 @@ def test_a_robot_keeps_its_place_when_the_scale_changes(see):
         assert figure.get_by_label("Robot", exact=True).input_value() == "5"
 
 
-def test_runs_are_counted(see):
+def test_runs_are_counted_as_soon_as_they_are_seen(see):
     figure = see("fig-how-many")
-    figure.get_by_role("button", name="Run", exact=True).click()
     figure.page.wait_for_function("document.querySelector('#fig-how-many .outcomes td')?.textContent > 2")
     figure.get_by_role("button", name="Stop").click()
     figure.get_by_role("button", name="Run", exact=True).wait_for()
@@ -290,6 +292,7 @@ def test_on_a_phone_nothing_is_cut_off(visit, page_name):
                 .map((node) => node.outerHTML.slice(0, 80))"""
         )
         assert wider == [], name
+        assert all(size >= SMALLEST for size in figure.evaluate(LETTERS)), name
         controls = figure.locator(":is(button, .opener):visible").all()
         assert all(control.bounding_box()["height"] >= 24 for control in controls), name
     assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]

@@ -34,12 +34,18 @@ SCALES = """() => {
   const shown = (element) => element.getClientRects().length > 0;
   return [
     ...[...document.querySelectorAll(".cut")].map((cut) => [cut, drawn(cut)]),
-    // a view of the playground covers the pictures of live figures
-    ...[...document.querySelectorAll("img.wide:not(.live > img)")].map((image) => [image, image.naturalWidth]),
+    ...[...document.querySelectorAll("img.wide")].map((image) => [image, image.naturalWidth]),
   ].filter(([element]) => shown(element))
     .map(([element, width]) => element.getBoundingClientRect().width / width);
 }"""
 SMALLEST, DRAWN = 9, 11 * 96 / 72  # pixels: what can be read, and the size of letters in figures
+WATCH_SHIFTS = """
+  window.shifted = 0;
+  new PerformanceObserver((list) => {
+    for (const { value } of list.getEntries()) window.shifted += value;
+  }).observe({ type: "layout-shift", buffered: true });
+"""
+STILL = 0.02  # shift of a page as it loads (Layout Instability) that is not noticed
 QUIET = 0.5  # seconds without a request, after which pages have loaded all they want
 
 
@@ -47,9 +53,12 @@ QUIET = 0.5  # seconds without a request, after which pages have loaded all they
 @pytest.mark.parametrize(
     ("viewport", "schemes"), [(DESKTOP, ["light", "dark"]), (PHONE, ["dark", "light"])], ids=["desktop", "phone"]
 )
-def test_every_page_without_an_error_a_request_elsewhere_or_a_scroll_bar(site, browser, names, viewport, schemes):
+def test_every_page_without_an_error_a_request_elsewhere_a_shift_or_a_scroll_bar(
+    site, browser, names, viewport, schemes
+):
     """Each page is loaded in one colour scheme, and then changes to the other."""
     context = browser.new_context(viewport=viewport)
+    context.add_init_script(WATCH_SHIFTS)
     tabs = [context.new_page() for _ in range(TABS)]
     complaints = [complaints_of(tab, (site, f"blob:{site}", "data:")) for tab in tabs]
     began = []  # when the requests began
@@ -67,6 +76,7 @@ def test_every_page_without_an_error_a_request_elsewhere_or_a_scroll_bar(site, b
             while time.monotonic() < began[-1] + QUIET:
                 tabs[0].wait_for_timeout(100)
         for tab, complaints_of_tab, name in opened:
+            assert tab.evaluate("window.shifted") < STILL, name
             for scheme in schemes:
                 tab.emulate_media(color_scheme=scheme)
                 wider = tab.evaluate("document.documentElement.scrollWidth - window.innerWidth")
@@ -93,6 +103,33 @@ def test_a_phone_shows_the_panels_of_a_figure_one_below_the_other(site, browser)
     page.set_viewport_size(DESKTOP)
     assert whole.is_visible()
     assert not panels.first.is_visible()
+    page.close()
+
+
+@needs_browser
+def test_a_phone_shows_the_first_rows_of_a_long_table_until_all_are_asked_for(site, browser):
+    page = browser.new_page(viewport=PHONE)
+    page.goto(urljoin(site, "notebooks/ledger.html"))
+    output = page.locator(".cell_output", has=page.locator(".all-rows")).first
+    rows, switch = output.locator("tbody tr"), output.get_by_role("checkbox")
+    assert output.locator("tbody tr:visible").count() == 5
+    assert switch.evaluate("node => node.parentElement.innerText.trim()") == f"Show all {rows.count()} rows"
+    switch.check()
+    assert output.locator("tbody tr:visible").count() == rows.count() > 5
+    switch.uncheck()
+    page.set_viewport_size(DESKTOP)
+    assert output.locator("tbody tr:visible").count() == rows.count()
+    assert not switch.is_visible()
+    page.close()
+
+
+@needs_browser
+def test_paper_is_light(site, browser):
+    page = browser.new_page(viewport=DESKTOP, color_scheme="dark")
+    page.goto(urljoin(site, "book/settled.html"))
+    theme = "document.documentElement.dataset.theme"
+    assert page.evaluate(f"dispatchEvent(new Event('beforeprint')), {theme}") == "light"
+    assert page.evaluate(f"dispatchEvent(new Event('afterprint')), {theme}") == "dark"
     page.close()
 
 

@@ -109,6 +109,21 @@ def test_it_follows_the_theme_of_the_book(visit):
     assert page.evaluate(colour) != light
 
 
+def test_forced_colours_leave_curves_dots_and_the_focus_visible(visit):
+    page = visit(f"algorithm=safe&seed=3&generation=5&{QUICK}")
+    panel(page, "SAFE").get_by_text("Generation 5").wait_for()
+    page.emulate_media(forced_colors="active", color_scheme="dark")
+    for drawing in page.locator(".playground :is(.chart svg, .maze canvas, .legend):visible").all():
+        ground = drawing.evaluate("node => getComputedStyle(node).backgroundColor")
+        assert ground == page.locator(".playground").evaluate(
+            "node => { node.style.forcedColorAdjust = 'none'; return getComputedStyle(node).backgroundColor; }"
+        )
+    page.get_by_role("tab", name="Watch").focus()
+    page.keyboard.press("Tab")
+    assert page.evaluate("getComputedStyle(document.activeElement).outlineStyle") == "solid"
+    page.emulate_media(forced_colors="none")
+
+
 def test_it_is_small(html):
     files = [Path(html, "_static", "playground", name) for name in ("bundle.js", "playground.css")]
     assert sum(file.stat().st_size for file in files) < LARGEST

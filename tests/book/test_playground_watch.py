@@ -53,6 +53,19 @@ def test_algorithms_side_by_side_are_those_of_the_package(visit):
         page.get_by_role("tab", name="Watch").click()
 
 
+def test_the_legend_has_the_colours_of_the_algorithms(visit):
+    page = visit(f"algorithm=standard&algorithm=weighing-and-goals&seed=3&{QUICK}")
+    panel(page, "Standard EA").get_by_text("Generation 0").wait_for()
+    colours = page.locator(".legend .dot").evaluate_all(
+        "nodes => nodes.map((node) => getComputedStyle(node).backgroundColor)"
+    )
+    lines = page.locator(".panel .swatch .line").evaluate_all(
+        "nodes => nodes.map((node) => getComputedStyle(node).stroke)"
+    )
+    assert colours == lines
+    assert len(set(colours)) == 2
+
+
 def test_one_generation_at_a_time_and_any_by_its_number(visit):
     generations = [g.distance for g in safe.generations("maze1", "novelty", 8, QUICK_PARAMETERS)]
     page = visit(f"algorithm=novelty&seed=8&{QUICK}")

@@ -58,12 +58,14 @@ export class DrawView {
 
   show(names) {
     const { maze, view } = this.store.state;
-    if (names.includes("maze") && maze !== this.lastDrawn) {
+    if (names.includes("maze") && maze !== this.lastDrawn) this.isStale = true;
+    if (view !== "draw") return;
+    if (this.isStale) {
+      this.isStale = false;
       this.editor.replaceDraft(maze);
       this.#checkDraft();
       this.editor.draw();
-    }
-    if (view === "draw" && names.includes("view")) this.editor.draw();
+    } else if (names.includes("view")) this.editor.draw();
   }
 
   pause() {

@@ -21,7 +21,7 @@ import { WeightTable } from "./weight_table.js";
 const DRIVE_LEGEND = [
   ["ring", "start"],
   ["star", "goal"],
-  ["stroke", "path"],
+  ["stroke ended", "path, and the robot on it"],
   ["sight", "how far it is to a wall"],
 ];
 const STEP_TIME = 60; // milliseconds between two steps

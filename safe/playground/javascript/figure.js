@@ -27,7 +27,8 @@ export function mountFigure(element, { address, parts, weights = [], robot = nul
   const store = new Store(stateAt(first));
   const problem = new Problem();
   const view = new VIEW_OF[store.state.view]({ store, problem, makeWorker, weights });
-  const playsAlone = store.state.view === "watch" && parts.includes("play") && !prefersLessMotion();
+  const moves = { watch: !prefersLessMotion(), runs: true }; // runs are counted, and nothing moves
+  const playsAlone = parts.includes("play") && moves[store.state.view];
 
   const link = make("a", { class: "opener" }, "Open in the playground");
   const setLink = () => (link.href = `${href}#${writeAddress({ ...store.state, ...view.reached })}`);

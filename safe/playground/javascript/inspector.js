@@ -13,7 +13,9 @@ export class Inspector {
     this.onselect = onselect;
     this.ondrive = ondrive;
     this.subject = null; // a selection, or panels of which no robot is selected
+    const number = make("input", { type: "number", disabled: true }); // until there are robots
     this.element = make("section", { class: "inspector", "aria-label": "One robot" });
+    this.element.append(...makeHead(), makeControls(labelled("Robot", number)));
   }
 
   /** selection: { panel, individual, inspection } of the robot to describe, or null. */
@@ -24,8 +26,7 @@ export class Inspector {
     const { activeElement } = document;
     const focusedTag = this.element.contains(activeElement) ? activeElement.tagName.toLowerCase() : null;
     this.element.replaceChildren(
-      make("h2", {}, "One robot"),
-      make("p", { class: "note" }, "Click where one ended, or give its number in the generation, counted from 0."),
+      ...makeHead(),
       this.#makeForm(panels, selection),
       ...(selection ? this.#describe(selection) : []),
     );
@@ -59,6 +60,11 @@ export class Inspector {
       makeButton("Drive this robot", () => this.ondrive(controller)),
     ];
   }
+}
+
+function makeHead() {
+  const note = "Click where one ended, or give its number in the generation, counted from 0.";
+  return [make("h2", {}, "One robot"), make("p", { class: "note" }, note)];
 }
 
 function noveltyText({ novelty, neighbours, k }) {

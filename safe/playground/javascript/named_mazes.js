@@ -68,9 +68,14 @@ wall 0,40 40,40
 `,
 };
 
+const parsed = new Map(); // mazes by their names, once they are asked for
+
 /** A maze of MAZES by its name. */
 export function namedMaze(name) {
-  return parseMaze(MAZES[checkedChoice("maze", name, Object.keys(MAZES))], name);
+  if (!parsed.has(name)) {
+    parsed.set(name, parseMaze(MAZES[checkedChoice("maze", name, Object.keys(MAZES))], name));
+  }
+  return parsed.get(name);
 }
 
 /** Is this the maze of MAZES that has its name? */

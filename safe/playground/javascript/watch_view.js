@@ -3,6 +3,7 @@
 import { make, makeAnnouncement, makeBlock, makeControls, makeLegend, prefersLessMotion } from "./dom.js";
 import { makeAlgorithmChoice, makeParameterFields, makeRunField, makeSeedField } from "./fields.js";
 import { Inspector } from "./inspector.js";
+import { kindOf } from "./labels.js";
 import { RunGroup } from "./run_group.js";
 import { RunPanel } from "./run_panel.js";
 import { SETTINGS } from "./store.js";
@@ -12,9 +13,9 @@ import { WatchCharts } from "./watch_charts.js";
 const WATCH_LEGEND = [
   ["ring", "start"],
   ["star", "goal"],
-  ["dot", "where robots of this generation ended (larger: several)"],
+  ["dots", "where robots of this generation ended (larger: several)"],
   ["faint", "archive"],
-  ["stroke", "path of the best robot so far"],
+  ["stroke ended", "path of the best robot so far, and its end"],
   ["dashes", "how its end moved from generation to generation"],
   ["selected", "the robot looked at, and its nearest neighbours"],
 ];
@@ -40,6 +41,7 @@ export class WatchView {
     this.announcement = makeAnnouncement();
     this.origin = make("p", { class: "note" });
     this.row = make("div", { class: "panels" });
+    this.legend = makeLegend(WATCH_LEGEND);
     this.charts = new WatchCharts();
     this.linking = make("input", { type: "checkbox", onchange: () => this.#draw() });
     this.goalsKey = makeBlock( // shown only with goals
@@ -60,7 +62,7 @@ export class WatchView {
       make(
         "div",
         { class: "stage" },
-        makeBlock(this.row, makeLegend(WATCH_LEGEND), this.goalsKey),
+        makeBlock(this.row, this.legend, this.goalsKey),
         makeBlock(this.inspector.element, this.charts.element),
       ),
     );
@@ -105,6 +107,7 @@ export class WatchView {
     const group = new RunGroup(state.algorithms.map((algorithm, i) => this.#makePanel(algorithm, i)));
     this.group = group;
     this.row.replaceChildren(...group.panels.map(({ element }) => element));
+    this.#colourLegend(state.algorithms);
     this.row.setAttribute("aria-busy", "true");
     group.open(state);
     if (!await this.#isDone(group.opening, group)) return;
@@ -113,6 +116,12 @@ export class WatchView {
     this.#draw();
     if (group.isOver) this.#announceResults();
     if (group.generation !== generation) this.#keepGeneration(); // the run was over before
+  }
+
+  /** Show the dots of all algorithms in the legend. */
+  #colourLegend(algorithms) {
+    const dots = algorithms.map((algorithm) => make("span", { class: `key dot ${kindOf(algorithm)}` }));
+    this.legend.querySelector(".dots").replaceChildren(...dots);
   }
 
   #makePanel(algorithm, i) {
