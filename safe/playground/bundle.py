@@ -19,6 +19,7 @@ from safe.maze_files import MAZE_FOLDER, maze_names
 
 FOLDER = Path(__file__).with_name("javascript")
 ENTRIES = ("playground.js", "figure.js", "worker.js")  # export `mount` and `mountFigure`, and `serve` for workers
+CLASS_ENTRIES = ("class_page.js", "worker.js")  # export `mountClass`, and the same
 
 _FROM = re.compile(r'^(import|export)\s*\{([^{}]*)\}\s*from\s*"\./([^"/]+)";[^\S\n]*\n?', re.MULTILINE)
 _DECLARATION = re.compile(

@@ -18,6 +18,7 @@ export function defaultState() {
     generation: 0,
     runs: 50,
     controller: PRESETS[0].controller,
+    course: null,
     result: null,
   };
 }
