@@ -28,7 +28,8 @@ _START = """
 _CLASS_START = """
 (() => {
   const { mountClass, makeWorker } = playground();
-  mountClass(document.getElementById("class"), { makeWorker, address: window, published: %s });
+  const [element, codes] = ["class", "codes"].map((id) => document.getElementById(id));
+  mountClass(element, codes, { makeWorker, address: window, published: %s });
 })();
 """
 

@@ -18,12 +18,13 @@ import { PACKAGED_MAZES } from "./packaged_mazes.js";
 import { checkedSeed } from "./random.js";
 import { WEIGHTS } from "./robot.js";
 
-export const VIEWS = ["watch", "drive", "draw", "runs"];
+export const VIEWS = ["watch", "drive", "draw", "runs", "challenges"];
+export const MOST_CHALLENGES = 10;
 export const MOST_RUNS = 10000;
 const MOST_ALGORITHMS = 8; // side by side in a view
 
 /** The state that an address describes: those of { view, maze, algorithms, seed, parameters, generation, runs,
- * controller, course } that it names. Throws an InputError if it cannot be read. */
+ * controller, course, challenge } that it names. Throws an InputError if it cannot be read. */
 export function readAddress(text) {
   const state = {};
   const parameters = {}, course = {};
@@ -36,6 +37,7 @@ export function readAddress(text) {
     else if (key === "seed") state.seed = readSeed(value);
     else if (key === "generation") state.generation = checkedInteger(key, readNumber(key, value), 0, MOST);
     else if (key === "runs") state.runs = checkedInteger(key, readNumber(key, value), 1, MOST_RUNS);
+    else if (key === "challenge") state.challenge = checkedInteger(key, readNumber(key, value), 1, MOST_CHALLENGES);
     else if (key === "class") course.name = value;
     else if (key === "seats" || key === "seat") course[key] = readNumber(key, value);
     else if (key === "controller") state.controller = readController(value);
@@ -55,7 +57,9 @@ export function readAddress(text) {
 
 /** The address of a state. That of a class names no seat, since who follows it takes another one, and a maze
  * only if the package knows the name. */
-export function writeAddress({ view, maze, algorithms, seed, parameters, generation, runs, controller, course }) {
+export function writeAddress(
+  { view, maze, algorithms, seed, parameters, generation, runs, controller, course, challenge },
+) {
   const isOfClass = view === "runs" && Boolean(course);
   const parts = [
     ["view", view],
@@ -67,6 +71,7 @@ export function writeAddress({ view, maze, algorithms, seed, parameters, generat
   if (view === "drive") parts.push(["controller", controller.join()]);
   if (view === "runs") parts.push(["runs", runs]);
   if (isOfClass) parts.push(["class", course.name], ["seats", course.seats]);
+  if (challenge) parts.push(["challenge", challenge]);
   return parts.map(([key, value]) => `${key}=${encoded(String(value))}`).join("&");
 }
 

@@ -5,6 +5,7 @@ import { ALGORITHMS, PARAMETERS } from "./algorithms.js";
 import { LineChart } from "./chart.js";
 import { outcomeOf } from "./class_lines.js";
 import { keyOf, outcomeText, poolLines, readLines } from "./class_pool.js";
+import { CodeCheck } from "./code_check.js";
 import { experimentsOf, firstRunOf, seedOfRun } from "./course.js";
 import { labelled, make, makeBlock, makeButton, makeControls, makeNumberCells, makeTableHead } from "./dom.js";
 import { makeSwatch, titleOf } from "./labels.js";
@@ -21,14 +22,16 @@ import { makeClients } from "./worker_client.js";
 const SAMPLE = 2; // runs of each seat that are made again
 const POOL_HEAD = ["Algorithm", "Runs", "Successes", "Rate", "95 % interval", "By the paper's rate"];
 
-/** Put the page of a class into an element.
+/** Put the page of a class into an element, and the box for codes of challenges into another.
  *
  * makeWorker: gives a new worker that runs `serve` of worker.js
  * address: the window whose address may name the class, as in the link that the class follows
  * published: for "maze algorithm" the paper's [successes, runs] */
-export function mountClass(element, { makeWorker, address, published }) {
+export function mountClass(element, codes, { makeWorker, address, published }) {
   const page = new ClassPage(makeWorker, published);
+  const check = new CodeCheck(makeWorker, page.problem);
   element.replaceChildren(page.element);
+  codes.replaceChildren(make("div", { class: "playground" }, check.element));
   const read = (text) => page.problem.attempt(() => page.expect(text));
   const pageAddress = new PageAddress(address, read);
   if (pageAddress.text) read(pageAddress.text);

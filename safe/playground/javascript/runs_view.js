@@ -85,7 +85,7 @@ export class RunsView {
   #begin() {
     const { state } = this.store, { course, seed } = state;
     this.pause();
-    this.settings = Object.fromEntries([...SHARED, "runs"].map((name) => [name, state[name]]));
+    this.settings = this.#settings();
     this.seeds = this.outcomes = [];
     if (course) this.problem.attempt(() => (this.seeds = this.#seedsInClass()));
     else this.seeds = state.algorithms.map((algorithm) => ({ algorithm, seedOf: (i) => nthSeed(seed, i) }));
@@ -130,6 +130,12 @@ export class RunsView {
     if (session !== this.session) return;
     this.pause();
     this.announcement.textContent = this.verdict.textContent;
+    this.store.set({ counted: { of: this.#settings(), outcomes: this.outcomes.map(countsOf) } });
+  }
+
+  /** The parts of the state that its runs have. */
+  #settings() {
+    return Object.fromEntries([...SHARED, "runs"].map((name) => [name, this.store.state[name]]));
   }
 
   #seedsInClass() {
@@ -180,6 +186,10 @@ export class RunsView {
     this.store.set({ algorithms: [algorithm], seed: watchedSeed, generation: 0, view: "watch" });
   }
 }
+function countsOf({ algorithm, results }) {
+  return { algorithm, runs: results.length, successes: results.filter((success) => success).length };
+}
+
 function makeCountInput(store, problem) {
   return makeStateInput(store, problem, { type: "number", min: 1, max: MOST_RUNS, step: 1 }, {
     name: "runs",

@@ -19,6 +19,7 @@ export function defaultState() {
     runs: 50,
     controller: PRESETS[0].controller,
     course: null,
+    challenge: null, // the number of the one that is open
     result: null,
   };
 }
