@@ -13,7 +13,7 @@ import { defaultState } from "./state.js";
 import { successInterval } from "./statistics.js";
 
 const NOTHING = "controller=0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0";
-const FEW = "seed=0&population=50&objectives=50&generations=100"; // robots
+const FEW = "population=50&objectives=50&generations=100"; // robots
 
 /** address: where a challenge begins. free: the parts that its solution may change, and parameters by name.
  * test: is it solved by a state, and by the outcomes of its runs, for each algorithm { algorithm, successes }? */
@@ -40,7 +40,7 @@ export const CHALLENGES = [
       "Stop this run of novelty search at the first generation in which any robot has come nearer to the goal " +
       "than the pocket allows: less than 7 cells.",
     hint: "Below the maze, the page says how near the best robot has come. One generation shows one at a time.",
-    address: `view=watch&maze=trap&algorithm=novelty&${FEW}`,
+    address: `view=watch&maze=trap&algorithm=novelty&seed=5&${FEW}`,
     free: ["generation"],
     test: isFirstOut,
   },
@@ -48,7 +48,7 @@ export const CHALLENGES = [
     title: "Fool closeness",
     question: "Draw a maze of your own in which the standard evolutionary algorithm never succeeds in 20 runs.",
     hint: "What is near to the goal in a straight line, and far from it on foot? See what the spiral does.",
-    address: `view=draw&maze=trap&algorithm=standard&runs=20&${FEW}`,
+    address: `view=draw&maze=trap&algorithm=standard&runs=20&seed=0&${FEW}`,
     runs: 20,
     free: ["maze"],
     test: ({ maze }, [standard]) => !isNamed(maze) && standard.successes === 0,
@@ -59,7 +59,7 @@ export const CHALLENGES = [
       "Draw a maze of your own in which the standard evolutionary algorithm succeeds in at most 2 of 20 runs, " +
       "and novelty search in at least 8.",
     hint: "Novelty search needs time to look everywhere: keep the maze small, and the deception strong.",
-    address: `view=draw&maze=trap&algorithm=standard&algorithm=novelty&runs=20&${FEW}`,
+    address: `view=draw&maze=trap&algorithm=standard&algorithm=novelty&runs=20&seed=0&${FEW}`,
     runs: 20,
     free: ["maze"],
     test: ({ maze }, [standard, novelty]) => !isNamed(maze) && standard.successes <= 2 && novelty.successes >= 8,
@@ -68,7 +68,7 @@ export const CHALLENGES = [
     title: "Forgetful novelty",
     question: "Make novelty search fail in the spiral, in all 20 runs, by k or the size of the archive alone.",
     hint: "What does a search for new places have to remember?",
-    address: `view=runs&maze=spiral&algorithm=novelty&runs=20&${FEW}`,
+    address: `view=runs&maze=spiral&algorithm=novelty&runs=20&seed=0&${FEW}`,
     runs: 20,
     free: ["k", "archive"],
     test: (_, [novelty]) => novelty.successes === 0,
@@ -78,7 +78,7 @@ export const CHALLENGES = [
     question: "Objective functions with fixed coefficients [a, b] reward closeness and novelty. Find some with b > 0 " +
       "that succeed in at most 1 of 20 runs in the spiral.",
     hint: "The two coefficients stand in the address of the page, behind fixed:none. Which of them is too large?",
-    address: `view=runs&maze=spiral&algorithm=fixed:none:0.5,0.5&runs=20&${FEW}`,
+    address: `view=runs&maze=spiral&algorithm=fixed:none:0.5,0.5&runs=20&seed=0&${FEW}`,
     runs: 20,
     free: ["algorithms"],
     test: ({ algorithms: [{ objectives, kind, components }] }, [fixed]) =>
@@ -89,7 +89,7 @@ export const CHALLENGES = [
     title: "A small budget",
     question:
       "No run may try more than 2000 robots (population times generations). Succeed in at least 7 of 20 runs in " +
-      "the trap, with any algorithm and parameters of the first row.",
+      "the trap, with any algorithm and parameters, as long as robots walk as far and success means the same.",
     hint: "What makes children differ more from their parents? And what does a reward for closeness do beside novelty?",
     address: "view=runs&maze=trap&algorithm=novelty&runs=20&seed=0&population=20&objectives=20&generations=100",
     runs: 20,
@@ -103,7 +103,7 @@ export const CHALLENGES = [
       "succeeds more often than novelty search in the spiral: after 40 runs their intervals must be apart.",
     hint:
       "Open Parameters with SAFE alone, then add novelty search as it is in the paper. A path visits more cells than its end.",
-    address: `view=runs&maze=spiral&algorithm=safe&algorithm=novelty&runs=40&${FEW}`,
+    address: `view=runs&maze=spiral&algorithm=safe&algorithm=novelty&runs=40&seed=0&${FEW}`,
     runs: 40,
     free: ["algorithms"],
     test: (_, outcomes) => {
@@ -116,7 +116,7 @@ export const CHALLENGES = [
     title: "Judges for the trap",
     question: "Which objective functions of SAFE bring at least 30 of 40 runs to the goal of the trap?",
     hint: "What leads out of the pocket: closeness, new end points, or rare paths? Try them in pairs.",
-    address: `view=runs&maze=trap&algorithm=safe&runs=40&${FEW}`,
+    address: `view=runs&maze=trap&algorithm=safe&runs=40&seed=0&${FEW}`,
     runs: 40,
     free: ["algorithms"],
     test: (_, [safe]) => safe.algorithm.objectives === null && safe.successes >= 30,

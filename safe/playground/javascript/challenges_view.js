@@ -1,7 +1,7 @@
 // Challenges: the list of them, and what the reader has solved, which only this browser knows.
 
 import { writeAddress } from "./address.js";
-import { beginningOf, CHALLENGES, writeCode, isSolved } from "./challenges.js";
+import { beginningOf, CHALLENGES, isSolved, writeCode } from "./challenges.js";
 import { labelled, make, makeBlock, makeButton, makeControls, makeCopyField, remember, remembered } from "./dom.js";
 
 const MEMORY = "safe: challenges solved";
@@ -22,9 +22,9 @@ export class ChallengesView {
     this.banner = make("div", { class: "welcome", hidden: true }); // above all views, while a challenge is open
     this.bannerText = make("p");
     this.verdict = make("p", { role: "status" });
-    const back = makeButton("All challenges", () => store.set({ view: "challenges" }));
+    this.back = makeButton("All challenges", () => store.set({ view: "challenges" }));
     const leave = makeButton("Leave this challenge", () => store.set({ challenge: null }));
-    this.banner.append(this.bannerText, this.verdict, makeControls(back, leave));
+    this.banner.append(this.bannerText, this.verdict, makeControls(this.back, leave));
     this.element = makeBlock(
       this.progress,
       make("ol", { class: "challenges" }, ...this.items.map(({ element }) => element)),
@@ -55,6 +55,8 @@ export class ChallengesView {
 
   #open(challenge) {
     this.store.set({ ...beginningOf(CHALLENGES[challenge - 1]), challenge });
+    this.banner.scrollIntoView();
+    this.back.focus();
   }
 
   /** Does the state solve the challenge that is open? */
