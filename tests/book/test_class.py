@@ -42,7 +42,7 @@ def test_every_seat_makes_runs_of_its_own(visit, lines):
     page.get_by_role("button", name="7", exact=True).focus()
     page.keyboard.press("Enter")
     page.get_by_role("heading", name=f"Class room 12 ½: seat 7 of {SEATS}").wait_for()
-    page.get_by_text("Your runs are 18 to 20 of each algorithm").wait_for()
+    page.get_by_text("Your runs are 18 to 20 of Novelty search and Random search on maze1").wait_for()
     assert not page.get_by_label("Seed").locator("visible=true").count()
     page = visit(COURSE.address)
     page.get_by_role("heading", name="seat 7").wait_for()  # the browser remembers it

@@ -23,7 +23,7 @@ PATHS = "safe:genotypic:drawn:raw:best:weights:generation:novelty,rarity"
 SOLUTIONS = {  # what each changes of the address with which its challenge begins
     1: {"controller": "0,0,0,-1,0,0,0,0,0,0,0,0,0,0,0,-1"},
     2: {"controller": "0,0,0,0,0.5,0,-1,0,0,-1,0,0,0,0,0,0"},
-    3: {},  # see below
+    3: {},  # see the test
     4: {"view": "runs", "maze": drive_address(OTHER_SPIRAL).split("maze=")[1]},
     5: {"view": "runs", "maze": drive_address(OTHER_SPIRAL).split("maze=")[1]},
     6: {"archive": "0"},
@@ -65,17 +65,18 @@ def outcomes_of(values):
     ]
 
 
-def is_solved(number, values):
-    """Does the page say that an address solves a challenge?"""
-    outcomes = outcomes_of(values) if "runs" in values else []
-    pairs = [(key, one) for key, value in values.items() for one in (value if key == "algorithm" else [value])]
-    address = "&".join(f"{key}={value}" for key, value in pairs)
-    return asked(f"""(() => {{
-        const challenge = CHALLENGES[{number - 1}];
-        const state = {{ ...beginningOf(challenge), generation: 0, ...readAddress({json.dumps(address)}) }};
-        const outcomes = {json.dumps(outcomes)}.map((one, i) => ({{ ...one, algorithm: state.algorithms[i] }}));
-        return isSolved(challenge, state, outcomes);
-    }})()""")
+def answers(cases):
+    """For each challenge and address (number, values): does the page say that this solves it?"""
+    asked_for = []
+    for number, values in cases:
+        pairs = [(key, one) for key, value in values.items() for one in (value if key == "algorithm" else [value])]
+        address = "&".join(f"{key}={value}" for key, value in pairs)
+        asked_for.append([number, address, outcomes_of(values) if "runs" in values else []])
+    return asked(f"""{json.dumps(asked_for)}.map(([number, address, outcomes]) => {{
+        const challenge = CHALLENGES[number - 1];
+        const state = {{ ...beginningOf(challenge), generation: 0, ...readAddress(address) }};
+        return isSolved(challenge, state, outcomes.map((one, i) => ({{ ...one, algorithm: state.algorithms[i] }})));
+    }})""")
 
 
 @pytest.fixture(scope="module")
@@ -87,24 +88,26 @@ def test_there_are_ten(beginnings):
     assert len(beginnings) == len(SOLUTIONS) == asked("MOST_CHALLENGES")
 
 
-@pytest.mark.parametrize("number", SOLUTIONS)
-def test_it_can_be_solved(beginnings, number):
-    beginning = beginnings[number - 1]
-    solution = SOLUTIONS[number]
-    if number == 3:
-        sizes = {name: int(beginning[name]) for name in ("population", "objectives", "generations")}
-        run = safe.generations(parse_maze(MAZES["trap"]), "novelty", int(beginning["seed"]), safe.Parameters(**sizes))
-        solution = {"generation": str(next(one.generation for one in run if one.distance < 7))}
-    assert not is_solved(number, beginning)
-    assert is_solved(number, beginning | solution)
+def test_each_can_be_solved_and_is_not_solved_at_first(beginnings):
+    third = beginnings[2]
+    sizes = {name: int(third[name]) for name in ("population", "objectives", "generations")}
+    run = safe.generations(parse_maze(MAZES["trap"]), "novelty", int(third["seed"]), safe.Parameters(**sizes))
+    first_out = next(generation.generation for generation in run if generation.distance < 7)
+    assert first_out > 5
+    solutions = SOLUTIONS | {3: {"generation": str(first_out)}}
+    assert answers(enumerate(beginnings, 1)) == [False] * 10
+    assert answers((n, beginning | solutions[n]) for n, beginning in enumerate(beginnings, 1)) == [True] * 10
 
 
 def test_other_settings_do_not_solve_it(beginnings):
-    solution = beginnings[0] | SOLUTIONS[1]
-    assert not is_solved(1, solution | {"maze": "trap"})
-    assert not is_solved(1, solution | {"success_distance": "60"})
-    assert not is_solved(1, solution | {"controller": "0,0,0,-1,0,0,0,0,0,0,0,0,0,0.5,0,-1"})
-    forgetful = beginnings[5] | SOLUTIONS[6]
-    assert not is_solved(6, forgetful | {"generations": "1"})
-    assert not is_solved(6, forgetful | {"seed": "7"})
-    assert not is_solved(6, forgetful | {"runs": "3"})
+    by_hand, forgetful = beginnings[0] | SOLUTIONS[1], beginnings[5] | SOLUTIONS[6]
+    cases = [
+        (1, by_hand | {"maze": "trap"}),
+        (1, by_hand | {"success_distance": "60"}),
+        (1, by_hand | {"controller": "0,0,0,-1,0,0,0,0,0,0,0,0,0,0.5,0,-1"}),
+        (3, beginnings[2] | {"generation": "5"}),
+        (6, forgetful | {"generations": "1"}),
+        (6, forgetful | {"seed": "7"}),
+        (6, forgetful | {"runs": "3"}),
+    ]
+    assert answers(cases) == [False] * len(cases)

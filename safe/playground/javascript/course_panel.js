@@ -14,6 +14,8 @@ import {
   remember,
   remembered,
 } from "./dom.js";
+import { titleOf } from "./labels.js";
+import { listText } from "./text.js";
 
 export class CoursePanel {
   /** page: the window in whose address the class is, or null, without which there are no classes. */
@@ -64,7 +66,8 @@ export class CoursePanel {
   }
 
   #showCourse(course, runs) {
-    const { name, seats, seat } = course;
+    const { name, seats, seat } = course, { algorithms, maze } = this.store.state;
+    const what = `${listText(algorithms.map(titleOf))} on ${maze.name}`;
     this.shown = course;
     const fragment = `#${writeAddress(this.store.state)}`;
     this.link.show(this.page.location.href.split("#")[0] + fragment);
@@ -73,11 +76,11 @@ export class CoursePanel {
     this.seats.hidden = seat !== null;
     this.otherSeat.hidden = seat === null;
     this.explanation.textContent = seat === null
-      ? `Which of the ${seats} seats is yours? Each makes ${runs} runs of each algorithm, which no other seat makes.`
-      : `Your runs are ${firstRunOf(seat, runs)} to ${
-        firstRunOf(seat, runs) + runs - 1
-      } of each algorithm, and yours ` +
-        `alone. All seats together make the runs 0 to ${seats * runs - 1} of the experiment with this seed, the same ` +
+      ? `Which of the ${seats} seats is yours? Each makes ${runs} runs of ${what} which no other seat makes.`
+      : `Your runs are ${firstRunOf(seat, runs)} to ${firstRunOf(seat, runs) + runs - 1} of ${what}, ` +
+        `and yours alone. All seats together make the runs 0 to ${
+          seats * runs - 1
+        } of the experiment with this seed, the same ` +
         "that safe.run makes in Python.";
     const buttons = Array.from({ length: seats }, (_, i) => makeButton(`${i + 1}`, () => this.#sit(i + 1)));
     this.seats.replaceChildren(make("legend", {}, "Your seat"), ...(seat === null ? buttons : []));
