@@ -2,7 +2,7 @@
 
 An address is the part of the page's URL behind the `#`, `key=value&key=value`, and describes all that the page shows::
 
-    view         `watch` a run, or `drive` a robot by its controller
+    view         `watch` a run, `drive` a robot by its controller, or make many `runs`
     maze         a packaged maze's name, or the cells of any maze: HEIGHTxWIDTH/row,column of the start/row,column of
                  the goal/walls; the walls are bits, row by row, in base64url without padding
     algorithm    its name in `safe.ALGORITHMS`, or name:rating:objectives, then :scaling:judging and then
@@ -12,6 +12,8 @@ An address is the part of the page's URL behind the `#`, `key=value&key=value`, 
     seed         an integer or several, separated by commas, then perhaps a slash and the spawn key; a run of an
                  experiment has the experiment's digest and the number of the run
     controller   the sixteen weights, separated by commas
+    runs         how many of each algorithm, in the view `runs`
+    class, seats the name of a class that shares the runs of experiments, and how many seats it has
     ...          any of `safe.Parameters` by its name, if it departs from the paper's
 
 Numbers are written so that reading them gives exactly the same values: an address opens exactly the same run.
@@ -21,22 +23,28 @@ from __future__ import annotations
 
 import base64
 import re
-from collections.abc import Iterable
-from urllib.parse import quote
+from collections.abc import Iterable, Sequence
+from dataclasses import fields
+from urllib.parse import quote, unquote
 
 import numpy as np
 
 from safe import checks
-from safe.algorithms import ALGORITHMS, Algorithm, get_algorithm
+from safe.algorithms import ALGORITHMS, WEIGHABLE, Algorithm, Parameters, get_algorithm
 from safe.evolution import Seed, seed_sequence
 from safe.experiments.experiment import Experiment
+from safe.judges import KINDS, RATINGS, SCALINGS
 from safe.maze import Maze
-from safe.maze_files import is_packaged, load_maze
+from safe.maze_files import is_packaged, load_maze, packaged_mazes
+from safe.operators import JUDGINGS
+from safe.repertoire import POOLS
 from safe.robot import WEIGHTS
 
 READABLE = "!~*'(),:/"  # left as they are by encodeURIComponent, or used in our values
 _NUMBER = r"(?:0x[0-9a-fA-F]{1,64}|[0-9]{1,80})"
 _SEED = re.compile(rf"({_NUMBER}(?:,{_NUMBER})*)(?:/({_NUMBER}(?:,{_NUMBER})*))?")
+_PARAMETERS = {field.name: field.type for field in fields(Parameters)}
+_CHOICES = {"rating": RATINGS, "scaling": SCALINGS, "judging": JUDGINGS, "kind": KINDS, "pool": POOLS}
 _LARGEST = 2**256 - 1  # number in a seed; as large as the digest of an experiment
 _POOL_SIZE = np.random.SeedSequence(0).pool_size  # the only one that the page supports
 
@@ -115,6 +123,49 @@ def drive_address(maze: Maze | str, controller: np.ndarray | None = None) -> str
     if controller is not None:
         values.append(("controller", _numbers(checks.array("controller", controller, (WEIGHTS,), -1, 1))))
     return _address(*values)
+
+
+def class_address(
+    name: str, seats: int, runs: int, algorithms: Sequence[Algorithm], maze: Maze, seed: int, parameters: Parameters
+) -> str:
+    """The link of a class that shares the runs of experiments (see `safe.playground.lines`)."""
+    return _address(
+        ("view", "runs"),
+        ("maze", _maze(maze)),
+        *(("algorithm", _algorithm(algorithm)) for algorithm in algorithms),
+        ("seed", str(seed)),
+        *((name, str(value)) for name, value in parameters.departures.items()),
+        ("runs", str(runs)),
+        ("class", name),
+        ("seats", str(seats)),
+    )
+
+
+def read_class_address(text: str) -> dict[str, object]:
+    """The arguments of `class_address` that gave an address.
+
+    Raises
+    ------
+    ValueError
+        If the address is not that of a class, or names what does not exist.
+    """
+    pairs = [(key, unquote(value, errors="strict")) for key, value in re.findall(r"([^&=]+)=([^&]*)", text)]
+    values = dict(pairs)
+    algorithms = [_read_algorithm(value) for key, value in pairs if key == "algorithm"]
+    if values.get("view") != "runs" or not algorithms or not {"maze", "seed", "runs", "class", "seats"} <= set(values):
+        raise ValueError(f"an address of a class must name all that its runs need; got {checks.shown(text)}")
+    own = {key: value for key, value in pairs if key in _PARAMETERS}
+    if unknown := set(values) - set(own) - {"view", "maze", "algorithm", "seed", "runs", "class", "seats"}:
+        raise ValueError(f"an address must hold known keys; got {checks.shown(min(unknown))}")
+    return {
+        "name": values["class"],
+        "seats": _read_integer("seats", values["seats"]),
+        "runs": _read_integer("runs", values["runs"]),
+        "algorithms": algorithms,
+        "maze": _read_maze(values["maze"]),
+        "seed": read_seed(values["seed"]),
+        "parameters": Parameters(**{key: _read_parameter(key, value) for key, value in own.items()}),
+    }
 
 
 def seed_text(seed: Seed) -> str:
@@ -198,6 +249,62 @@ def _algorithm(algorithm: Algorithm) -> str:
 
 def _code(choice: str) -> str:
     return choice.split()[0]
+
+
+def _read_integer(name: str, text: str) -> int:
+    if not re.fullmatch(r"[0-9]{1,80}", text):
+        raise ValueError(f"{name} must be a number; got {checks.shown(text)}")
+    return int(text)
+
+
+def _read_parameter(name: str, text: str) -> int | float | str:
+    if _PARAMETERS[name] == "str":
+        return text
+    number = float(text)
+    return int(number) if _PARAMETERS[name] == "int" and number.is_integer() else number
+
+
+def _read_maze(text: str) -> Maze:
+    """The inverse of `_maze`."""
+    if "/" not in text:
+        return packaged_mazes()[checks.choice("maze", text, packaged_mazes())]
+    found = re.fullmatch(r"(\d{1,4})x(\d{1,4})/(\d{1,4}),(\d{1,4})/(\d{1,4}),(\d{1,4})/([\w-]*)", text)
+    if not found:
+        raise ValueError(
+            f"maze must be a name, or the cells of a maze as an address gives them; got {checks.shown(text)}"
+        )
+    height, width, *ends = map(int, found.groups()[:6])
+    bits = found.group(7)
+    packed = np.frombuffer(base64.urlsafe_b64decode(bits + "=" * (-len(bits) % 4)), np.uint8)
+    if len(packed) != -(-height * width // 8):
+        raise ValueError(f"maze must have a bit for each of its cells; got {checks.shown(text)}")
+    walls = np.unpackbits(packed, count=height * width).reshape(height, width)
+    return Maze(walls, tuple(ends[:2]), tuple(ends[2:]), "drawn")
+
+
+def _read_algorithm(text: str) -> Algorithm:
+    """The inverse of `_algorithm`."""
+    name, *parts = text.split(":")
+    if not parts:
+        return get_algorithm(name)
+    fields = ["rating", "objectives", "scaling", "judging", "kind", "pool", "components"]
+    if len(parts) not in (2, 4, 7):
+        raise ValueError(f"algorithm must be a name, or name:rating:a,b,...; got {checks.shown(text)}")
+    codes = dict(zip(fields, parts, strict=False))
+    choices = {field: _choice_of(field, code) for field, code in codes.items() if field in _CHOICES}
+    if "components" in codes:
+        choices["components"] = [_choice_of("components", code) for code in codes["components"].split(",")]
+    if codes["objectives"] == "drawn":
+        return Algorithm(name, None, **choices)
+    genes = [float(gene) for gene in codes["objectives"].split(",") if gene]
+    width = Algorithm(name, None, **choices).genes if genes else 1
+    return Algorithm(name, [genes[at : at + width] for at in range(0, len(genes), width)], **choices)
+
+
+def _choice_of(field: str, code: str) -> str:
+    if field == "components":
+        return next((name for name in WEIGHABLE if name.split()[-1] == code), code)
+    return next((choice for choice in _CHOICES[field] if _code(choice) == code), code)
 
 
 def _numbers(values: np.ndarray) -> str:

@@ -19,6 +19,7 @@ from safe.maze_files import MAZE_FOLDER, maze_names
 
 FOLDER = Path(__file__).with_name("javascript")
 ENTRIES = ("playground.js", "figure.js", "worker.js")  # export `mount` and `mountFigure`, and `serve` for workers
+CLASS_ENTRIES = ("class_page.js", "worker.js")  # export `mountClass`, and the same
 
 _FROM = re.compile(r'^(import|export)\s*\{([^{}]*)\}\s*from\s*"\./([^"/]+)";[^\S\n]*\n?', re.MULTILINE)
 _DECLARATION = re.compile(
@@ -26,6 +27,8 @@ _DECLARATION = re.compile(
 )
 _DESCRIPTION = re.compile(r"^[^\S\n]*/\*\*(?:(?!\*/).|\n)*\*/\n", re.MULTILINE)  # that fills its lines
 _LAST_COMMENT = re.compile(r"\s+//[^\"'`/]*$")  # of a line; if it stood in a literal, the end of that would follow
+_SPACED = re.compile(r" ?([=*<>{}(),:;?&|]) ?")
+_MAY_HOLD_A_TEXT = re.compile("[\"'`/]")  # or a regular expression
 _COMMENT_OF_A_LIST = re.compile(r"^#.*\n", re.MULTILINE)
 _OTHER_FORM = re.compile(r"^(?:import|export)\b.*|(?<![\w$.#])import\s*(?:\(|\.\s*meta\b).*", re.MULTILINE)
 
@@ -88,8 +91,9 @@ def script(entries: tuple[str, ...] = ENTRIES, folder: Path = FOLDER) -> str:
 
 
 def stylesheet(folder: Path = FOLDER) -> str:
-    """The stylesheet of the playground."""
-    return (folder / "playground.css").read_text(encoding="utf-8")
+    """The stylesheet of the playground, without comments and indentation."""
+    text = (folder / "playground.css").read_text(encoding="utf-8")
+    return re.sub(r"/\*.*?\*/|^\s+", "", text, flags=re.DOTALL | re.MULTILINE)
 
 
 def _read_modules(folder: Path, entries: tuple[str, ...]) -> dict[str, _Module]:
@@ -138,7 +142,9 @@ def _parse(text: str, file: str) -> _Module:
 
 
 def _shortened(text: str, file: str) -> str:
-    """The text for a page to load, without indentation, empty lines and most comments; to read, there are the modules.
+    """The text for a page to load, without indentation, empty lines, and most comments and blanks around operators.
+
+    To read, there are the modules.
 
     Template literals that span lines stay as they are.
     """
@@ -150,7 +156,8 @@ def _shortened(text: str, file: str) -> str:
         elif not (line := line.lstrip()) or line.startswith("//"):
             continue
         else:
-            lines.append(line if line.count("`") % 2 else _LAST_COMMENT.sub("", line))
+            line = line if line.count("`") % 2 else _LAST_COMMENT.sub("", line)
+            lines.append(line if _MAY_HOLD_A_TEXT.search(line) else _SPACED.sub(r"\1", line))
         is_inside ^= line.count("`") % 2 == 1
     if is_inside:
         raise ValueError(f"{file} must hold ` in pairs, also in texts and comments; got an odd number")

@@ -52,6 +52,8 @@ ABOUT_NEITHER = {
     "tab-beyond",
     *(f"tab-beyond-{name}" for name in (*all_questions(), "contest")),
     "tab-budget",
+    "tab-class-pooled",
+    "tab-class-refused",
     "tab-contest-asked",
     "tab-contest-cost",
     "tab-contest-coevolution",

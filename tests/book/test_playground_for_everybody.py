@@ -57,6 +57,7 @@ def test_keyboard_alone_is_enough(visit):
     assert np.round(np.subtract(driven(page), before), 9).tolist() == [0, 0, 0.3] + [0] * 13
     page.get_by_role("tab", name="Drive").focus()
     page.keyboard.press("End")
+    page.keyboard.press("ArrowLeft")
     tab_to("Run")
     page.keyboard.press("Enter")
     page.wait_for_function("document.querySelector('.outcomes tbody td')?.textContent > 0")

@@ -41,7 +41,10 @@ pytestmark = needs_browser
         ("maze=3x3/0,0/9,9/AAA", "goal must be a (row, column) within the 3 by 3 cells; got (9, 9)"),
         ("maze=3x3/0,0/2,2/%E0%A4%A", "an address must be encoded as a browser does"),
         ("constructor=1", "an address must hold known keys; got 'constructor'"),
-        ("view=<img src=x onerror=alert(1)>", "view must be one of 'watch', 'drive', 'draw', 'runs'; got '<img"),
+        (
+            "view=<img src=x onerror=alert(1)>",
+            "view must be one of 'watch', 'drive', 'draw', 'runs', 'challenges'; got '<img",
+        ),
         ("algorithm=<b>bold</b>:none:x", "algorithm must be a name, or name:rating:a,b,..."),
     ],
 )

@@ -13,7 +13,7 @@ FIGURES = {  # in chapters, by their pages; each with its view
     "safe": {"fig-coefficients-over-time": "watch", "fig-scales": "watch"},
     "experiments": {"fig-how-many": "runs"},
 }
-VIEWS = {"watch": "Watch", "drive": "Drive", "draw": "Draw", "runs": "Many runs"}
+VIEWS = {"watch": "Watch", "drive": "Drive", "draw": "Draw", "runs": "Many runs", "challenges": "Challenges"}
 QUICK = "population=20&objectives=20&generations=30"
 QUICK_PARAMETERS = safe.Parameters(population=20, objectives=20, generations=30)
 
@@ -91,5 +91,6 @@ def wait_for_view(page, view):
         "drive": "After 300 steps",
         "draw": "The goal can be reached",
         "runs": "Runs so far",
+        "challenges": "Solved:",
     }
     page.get_by_role("tabpanel").get_by_text(shown[view]).locator("visible=true").first.wait_for()

@@ -51,7 +51,7 @@ function hidden() { return 100; }
     )
     text = bundle.script(ENTRY, folder)
     assert text.startswith("function playground() {\n")
-    assert text.count("TWO = 2") == 1
+    assert text.count("TWO=2") == 1
     log = node(
         f"{text}\nconst {{ sum, later, numbers, makeWorker, ...others }} = playground();\n"
         "console.log(numbers(), Object.keys(others)); later().then((pair) => console.log(sum(pair)));"
@@ -111,6 +111,23 @@ export const TEXTS = [ // odd ones
     assert "odd" not in text
     assert "// e\n" not in text
     assert "\nTEXTS" not in text
+
+
+@needs_node
+def test_blanks_that_mean_something_stay(write):
+    folder = write(
+        entry="""
+export function odd(a, b = { c: 1 }) {
+  return a > 0 ? .5 - -b.c + +a : [ a, - - 2, a ** 2 ];
+}
+export const text = "a = b ( c )";
+export const pattern = /a ? =/;
+"""
+    )
+    log = node(
+        bundle.script(ENTRY, folder) + "const p = playground(); console.log(p.odd(1), p.odd(0), p.text, p.pattern);"
+    )
+    assert log == "2.5 [ 0, 2, 0 ] a = b ( c ) /a ? =/\n"
 
 
 @pytest.mark.parametrize(

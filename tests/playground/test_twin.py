@@ -455,3 +455,16 @@ def test_random_search_draws_the_numbers_of_numpy(twin, seed):
     sequence = seed if isinstance(seed, np.random.SeedSequence) else np.random.SeedSequence(seed)
     drawn = -1 + 2 * np.random.Generator(np.random.SFC64(sequence)).random((3, 20, 16))
     assert [generation["genomes"] for generation in found] == drawn.tolist()
+
+
+def test_the_digests_of_experiments(twin):
+    rng = np.random.default_rng(2022)
+    experiments = [
+        safe.Experiment(algorithm, maze, seed=int(rng.integers(2**62)), parameters=parameters)
+        for maze, algorithm, _, parameters in [*runs_of_every_kind(), *runs_with_choices()]
+    ]
+    # numbers that Python and JavaScript write in different ways
+    numbers = [1e-4, 1e-5, 1e-7, 1e15, 1e16, 123456789012345678.0, 1e22, 5e-324, -0.0, 0.1 + 0.2, 1 / 3, -1e-300]
+    experiments += [safe.Experiment(safe.Algorithm("one", [(number, 1)]), "maze2") for number in numbers]
+    calls = [run_of("digest", e.maze, e.algorithm, 0, e.parameters) | {"seed": str(e.seed)} for e in experiments]
+    assert twin.results(calls) == [experiment.digest for experiment in experiments]

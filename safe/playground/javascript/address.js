@@ -11,20 +11,23 @@ import {
   WEIGHABLE,
 } from "./algorithms.js";
 import { checkedChoice, checkedInteger, checkedRow, InputError, MOST, shown } from "./checks.js";
+import { checkedCourse } from "./course.js";
 import { LONGEST_SIDE, makeMaze } from "./maze.js";
-import { isNamed, namedMaze } from "./named_mazes.js";
+import { isNamed, namedMaze, recognised } from "./named_mazes.js";
+import { PACKAGED_MAZES } from "./packaged_mazes.js";
 import { checkedSeed } from "./random.js";
 import { WEIGHTS } from "./robot.js";
 
-export const VIEWS = ["watch", "drive", "draw", "runs"];
+export const VIEWS = ["watch", "drive", "draw", "runs", "challenges"];
+export const MOST_CHALLENGES = 10;
 export const MOST_RUNS = 10000;
 const MOST_ALGORITHMS = 8; // side by side in a view
 
 /** The state that an address describes: those of { view, maze, algorithms, seed, parameters, generation, runs,
- * controller } that it names. Throws an InputError if it cannot be read. */
+ * controller, course, challenge } that it names. Throws an InputError if it cannot be read. */
 export function readAddress(text) {
   const state = {};
-  const parameters = {};
+  const parameters = {}, course = {};
   for (const part of text.split("&").filter((part) => part)) {
     const [key, ...rest] = part.split("=");
     const value = decoded(rest.join("="));
@@ -34,6 +37,9 @@ export function readAddress(text) {
     else if (key === "seed") state.seed = readSeed(value);
     else if (key === "generation") state.generation = checkedInteger(key, readNumber(key, value), 0, MOST);
     else if (key === "runs") state.runs = checkedInteger(key, readNumber(key, value), 1, MOST_RUNS);
+    else if (key === "challenge") state.challenge = checkedInteger(key, readNumber(key, value), 1, MOST_CHALLENGES);
+    else if (key === "class") course.name = value;
+    else if (key === "seats" || key === "seat") course[key] = readNumber(key, value);
     else if (key === "controller") state.controller = readController(value);
     else if (Object.hasOwn(PARAMETERS, key)) parameters[key] = key === "admission" ? value : readNumber(key, value);
     else throw new InputError(`an address must hold known keys; got ${shown(key)}`);
@@ -41,6 +47,7 @@ export function readAddress(text) {
   if (state.algorithms?.length > MOST_ALGORITHMS) {
     throw new InputError(`an address must hold at most ${MOST_ALGORITHMS} algorithms; got ${state.algorithms.length}`);
   }
+  if (Object.keys(course).length > 0) state.course = checkedCourse(course);
   if (Object.keys(parameters).length > 0) {
     checkedParameters(parameters);
     state.parameters = parameters;
@@ -48,17 +55,23 @@ export function readAddress(text) {
   return state;
 }
 
-/** The address of a state. */
-export function writeAddress({ view, maze, algorithms, seed, parameters, generation, runs, controller }) {
+/** The address of a state. That of a class names no seat, since who follows it takes another one, and a maze
+ * only if the package knows the name. */
+export function writeAddress(
+  { view, maze, algorithms, seed, parameters, generation, runs, controller, course, challenge },
+) {
+  const isOfClass = view === "runs" && Boolean(course);
   const parts = [
     ["view", view],
-    ["maze", writeMaze(maze)],
+    ["maze", writeMaze(maze, isOfClass)],
   ];
   for (const algorithm of algorithms) parts.push(["algorithm", writeAlgorithm(algorithm)]);
   parts.push(["seed", writeSeed(seed)], ...Object.entries(parameters));
   if (view === "watch" && generation > 0) parts.push(["generation", generation]);
   if (view === "drive") parts.push(["controller", controller.join()]);
   if (view === "runs") parts.push(["runs", runs]);
+  if (isOfClass) parts.push(["class", course.name], ["seats", course.seats]);
+  if (challenge) parts.push(["challenge", challenge]);
   return parts.map(([key, value]) => `${key}=${encoded(String(value))}`).join("&");
 }
 
@@ -161,11 +174,11 @@ function readMaze(text) {
     throw new InputError(`maze must be a name, or the cells of a maze as an address gives them; got ${shown(text)}`);
   }
   const walls = Uint8Array.from({ length: height * width }, (_, cell) => (bytes[cell >> 3] >> (7 - (cell & 7))) & 1);
-  return makeMaze(walls, height, width, numbers.slice(2, 4), numbers.slice(4, 6), "drawn");
+  return recognised(makeMaze(walls, height, width, numbers.slice(2, 4), numbers.slice(4, 6), "drawn"));
 }
 
-function writeMaze(maze) {
-  if (isNamed(maze)) return maze.name;
+function writeMaze(maze, isForPackage) {
+  if (isNamed(maze) && (!isForPackage || maze.name in PACKAGED_MAZES)) return maze.name;
   const { height, width, start, goal, walls } = maze;
   const bytes = new Uint8Array(Math.ceil(walls.length / 8));
   walls.forEach((wall, cell) => (bytes[cell >> 3] |= wall << (7 - (cell & 7))));

@@ -100,7 +100,41 @@ export function download(name, text) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
+/** A text to copy, with a button that does. Returns { element, show(text) }. */
+export function makeCopyField(title, button) {
+  const area = make("textarea", { rows: 3, readonly: true, spellcheck: "false", "aria-label": title });
+  const said = make("span", { role: "status" });
+  const copy = () => {
+    area.select();
+    said.textContent = document.execCommand("copy") ? "Copied." : "Selected: copy it now."; // also without https
+  };
+  const show = (text) => {
+    if (area.value === text) return;
+    area.value = text;
+    said.textContent = "";
+  };
+  return { element: makeBlock(area, makeControls(makeButton(button, copy), said)), show };
+}
+
 /** Does the reader ask for less motion? */
 export function prefersLessMotion() {
   return matchMedia("(prefers-reduced-motion: reduce)").matches;
+}
+
+/** What this browser was asked to remember under a name; null if it was not, or does not remember. */
+export function remembered(name) {
+  try {
+    return localStorage.getItem(name);
+  } catch {
+    return null; // as in some frames, and if the reader forbids it
+  }
+}
+
+/** Ask this browser to remember a text. */
+export function remember(name, text) {
+  try {
+    localStorage.setItem(name, text);
+  } catch {
+    // then it lasts as long as the page
+  }
 }

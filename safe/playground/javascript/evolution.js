@@ -32,6 +32,8 @@ import { Walker, WEIGHTS } from "./robot.js";
 import { rowOf } from "./rows.js";
 import { byChance, byDrawnJudge, byFavourite, byFitness, elitesOf, scoresOfDrawn } from "./selection.js";
 
+export const RULES = 1; // version of the rules that runs follow; that of safe/evolution.py
+
 /** A run, to be advanced generation by generation. Matrices are Float64Arrays, row after row. */
 export class Evolution {
   constructor(maze, algorithm, seed, parameters = {}) {

@@ -2,11 +2,13 @@
 //
 // engine.js and what it exports are the science, as in the package. worker.js runs it beside the page, which asks it by
 // way of worker_client.js. The page has a state (state.js, kept in store.js), which is also in its address (address.js,
-// page_address.js), and a view for each tab (tabs.js): watch_view.js, drive_view.js, draw_view.js and runs_view.js. The
-// parts of a view are files, too. figure.js shows one view in a chapter. bundle.py makes one script of all modules, and
-// says how they may import and export.
+// page_address.js), and a view for each tab (tabs.js): watch_view.js, drive_view.js, draw_view.js, runs_view.js and challenges_view.js. The
+// parts of a view are files, too. course.js and class_lines.js let a class share runs, which class_page.js pools.
+// figure.js shows one view in a chapter. bundle.py makes one script of all modules, and says how they may import and
+// export.
 
 import { readAddress } from "./address.js";
+import { ChallengesView } from "./challenges_view.js";
 import { labelled, make } from "./dom.js";
 import { DrawView } from "./draw_view.js";
 import { DriveView } from "./drive_view.js";
@@ -47,10 +49,18 @@ export function mount(element, { state = {}, makeWorker, onChange = () => {}, ad
     welcome.hidden = false;
   } else if (pageAddress) problem.attempt(() => Object.assign(store.state, readAddress(pageAddress.text)));
 
-  const views = makeViews({ store, problem, makeWorker });
+  const views = makeViews({ store, problem, makeWorker, page: address });
   const tabs = new Tabs(store, views);
   const head = make("div", { class: "head" }, tabs.list, labelled("Maze", makeMazeChoice(store)));
-  const root = make("div", { class: "playground" }, head, problem.element, welcome, ...tabs.panels);
+  const root = make(
+    "div",
+    { class: "playground" },
+    head,
+    problem.element,
+    welcome,
+    views.challenges.banner,
+    ...tabs.panels,
+  );
 
   store.listen((names, source) => {
     if (names.includes("view")) {
@@ -87,5 +97,6 @@ function makeViews(shared) {
     drive: new DriveView(shared),
     draw: new DrawView(shared),
     runs: new RunsView(shared),
+    challenges: new ChallengesView(shared),
   };
 }

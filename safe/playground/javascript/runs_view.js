@@ -3,29 +3,36 @@
 import { MOST_RUNS, nthSeed } from "./address.js";
 import { LineChart } from "./chart.js";
 import { checkedInteger } from "./checks.js";
+import { experimentsOf, firstRunOf, seedOfRun } from "./course.js";
+import { CoursePanel, seated } from "./course_panel.js";
 import { labelled, make, makeAnnouncement, makeBlock, makeButton, makeControls } from "./dom.js";
 import { makeAlgorithmChoice, makeParameterFields, makeSeedField, makeStateInput } from "./fields.js";
-import { kindOf, titleOf } from "./labels.js";
 import { OutcomeTable } from "./outcome_table.js";
 import { SETTINGS } from "./store.js";
-import { compareTallies, tally } from "./tally.js";
-import { WorkerClient } from "./worker_client.js";
+import { compareTallies, seriesOfRates, tally } from "./tally.js";
+import { makeClients } from "./worker_client.js";
 
-const MOST_WORKERS = 8;
+const SHARED = [...SETTINGS, "course"]; // other ones have other runs
 const NOTE =
-  "The first run has the seed above, the next one the seed after it, and so on. A run is counted once all before it " +
-  "are over: failures take longest, and would otherwise be counted too late. Intervals are Wilson's. If you look " +
-  "after every run and stop when they part, you will find differences that are not there: decide first how many runs " +
-  "to make.";
+  "A run is counted once all before it are over: failures take longest, and would otherwise be counted too late. " +
+  "Intervals are Wilson's. If you look after every run and stop when they part, you will find differences that are " +
+  "not there: decide first how many runs to make.";
+const SEEDS = { // what the seed is the seed of
+  run: "The seed is that of one run: the first run has it, the next one the seed after it, and so on.",
+  experiment: "The seed is that of an experiment's run, and the runs here are runs of that experiment.",
+  course: "The seed is that of the experiment which the class shares; from it follow the seeds of all runs.",
+};
 
 export class RunsView {
-  constructor({ store, problem, makeWorker }) {
+  /** page: the window in whose address the state is, or null; without it there are no classes. */
+  constructor({ store, problem, makeWorker, page = null }) {
     this.store = store;
     this.problem = problem;
     this.makeWorker = makeWorker;
     this.clients = []; // one for each worker, while they run
     this.settings = {}; // of the runs in the table
-    this.outcomes = []; // for each algorithm { algorithm, results }; see tally.js
+    this.seeds = []; // of them: for each algorithm { algorithm, seedOf }, which gives the seed of the i-th run
+    this.outcomes = []; // the same with { results, made }: by number, the successes (see tally.js), and all of a run
     this.session = 0; // of the workers; what an earlier one answers is dropped
     this.excursion = null; // { algorithms, seed, watchedSeed } while one of these runs is watched
     this.button = makeButton("Run", () => (this.isPlaying ? this.pause() : this.play()), { class: "primary" });
@@ -33,10 +40,20 @@ export class RunsView {
     this.table = new OutcomeTable((algorithm, success) => this.#watch(algorithm, success));
     this.verdict = make("p", { class: "note verdict" });
     this.announcement = makeAnnouncement(); // the verdict, at the end
-    const settings = [makeAlgorithmChoice(store), makeSeedField(store, problem), makeParameterFields(store, problem)];
+    this.coursePanel = new CoursePanel({ store, problem, page });
+    this.count = labelled("runs of each algorithm", makeCountInput(store, problem));
+    this.fields = makeControls(
+      makeAlgorithmChoice(store),
+      makeSeedField(store, problem),
+      makeParameterFields(store, problem),
+    );
+    this.seedNote = make("p", { class: "note" });
     this.element = makeBlock(
-      makeControls(this.button, labelled("runs of each algorithm", makeCountInput(store, problem))),
-      makeControls(...settings),
+      this.coursePanel.current,
+      makeControls(this.button, this.count),
+      this.fields,
+      this.seedNote,
+      this.coursePanel.begin,
       make("p", { class: "note" }, NOTE),
       this.verdict,
       this.announcement,
@@ -53,13 +70,29 @@ export class RunsView {
     if (excursion?.watchedSeed === state.seed) {
       return this.store.set({ algorithms: excursion.algorithms, seed: excursion.seed });
     }
-    if (SETTINGS.some((name) => state[name] !== this.settings[name])) {
-      this.pause();
-      this.settings = Object.fromEntries(SETTINGS.map((name) => [name, state[name]]));
-      this.outcomes = [];
-      this.table.begin([]);
+    if (state.course) {
+      // the seat of the reader, and the settings of the class whatever other tabs have changed
+      const course = seated(state.course), { settings } = this;
+      const isSame = settings.course === course;
+      const changes = isSame ? settings : { course };
+      if (Object.entries(changes).some(([name, value]) => state[name] !== value)) return this.store.set({ ...changes });
     }
+    if (SHARED.some((name) => state[name] !== this.settings[name])) this.#begin();
     this.#draw();
+  }
+
+  /** Forget all runs: these settings have others. */
+  #begin() {
+    const { state } = this.store, { course, seed } = state;
+    this.pause();
+    this.settings = this.#settings();
+    this.seeds = this.outcomes = [];
+    if (course) this.problem.attempt(() => (this.seeds = this.#seedsInClass()));
+    else this.seeds = state.algorithms.map((algorithm) => ({ algorithm, seedOf: (i) => nthSeed(seed, i) }));
+    this.table.begin([]);
+    for (const field of [this.count, this.fields]) field.hidden = Boolean(course);
+    this.button.disabled = course?.seat === null || this.seeds.length === 0;
+    this.seedNote.textContent = SEEDS[course ? "course" : seed.spawnKey.length > 0 ? "experiment" : "run"];
   }
 
   get isPlaying() {
@@ -80,16 +113,14 @@ export class RunsView {
 
   async play() {
     if (this.outcomes.length === 0) {
-      const { algorithms } = this.settings;
-      this.outcomes = algorithms.map((algorithm) => ({ algorithm, results: [] }));
-      this.table.begin(algorithms);
+      this.outcomes = this.seeds.map((one) => ({ ...one, results: [], made: [] }));
+      this.table.begin(this.settings.algorithms);
     }
     this.announcement.textContent = "";
     const queue = this.#missingRuns();
     if (queue.length === 0) return;
     const { session } = this;
-    const workers = Math.min(MOST_WORKERS, navigator.hardwareConcurrency || 2, queue.length);
-    this.clients = Array.from({ length: workers }, () => new WorkerClient(this.makeWorker));
+    this.clients = makeClients(this.makeWorker, queue.length);
     this.button.textContent = "Stop";
     try {
       await Promise.all(this.clients.map((client) => this.#work(client, queue, session)));
@@ -99,6 +130,21 @@ export class RunsView {
     if (session !== this.session) return;
     this.pause();
     this.announcement.textContent = this.verdict.textContent;
+    this.store.set({ counted: { of: this.#settings(), outcomes: this.outcomes.map(countsOf) } });
+  }
+
+  /** The parts of the state that its runs have. */
+  #settings() {
+    return Object.fromEntries([...SHARED, "runs"].map((name) => [name, this.store.state[name]]));
+  }
+
+  #seedsInClass() {
+    const { course, runs } = this.settings;
+    const first = firstRunOf(course.seat, runs);
+    return experimentsOf(course, this.settings).map(({ algorithm, digest }) => ({
+      algorithm,
+      seedOf: (i) => seedOfRun(digest, first + i),
+    }));
   }
 
   /** [outcome, number of the run] of each run that is still to be made. */
@@ -111,13 +157,14 @@ export class RunsView {
 
   /** Let a worker make one run after the other, until none is left. */
   async #work(client, queue, session) {
-    const { maze, seed, parameters } = this.settings;
+    const { maze, parameters } = this.settings;
     while (queue.length > 0) {
       const [outcome, number] = queue.shift();
-      const { algorithm } = outcome;
-      const result = await client.ask("evolve", { maze, algorithm, seed: nthSeed(seed, number), parameters });
+      const { algorithm, seedOf } = outcome;
+      const result = await client.ask("evolve", { maze, algorithm, seed: seedOf(number), parameters });
       if (session !== this.session) return;
       outcome.results[number] = result.success;
+      outcome.made[number] = result;
       this.#draw();
     }
   }
@@ -127,16 +174,20 @@ export class RunsView {
     this.chart.show(tallies.map(seriesOfRates), 100, this.store.state.runs);
     this.table.show(tallies);
     this.verdict.textContent = compareTallies(tallies);
+    this.coursePanel.show(this.outcomes);
   }
 
   /** Watch the first run of an algorithm that succeeded, or failed. These runs stay until the reader comes back. */
   #watch(algorithm, success) {
-    const { results } = this.outcomes.find((outcome) => outcome.algorithm === algorithm);
+    const { results, seedOf } = this.outcomes.find((outcome) => outcome.algorithm === algorithm);
     const { algorithms, seed } = this.settings;
-    const watchedSeed = nthSeed(seed, results.indexOf(success));
+    const watchedSeed = seedOf(results.indexOf(success));
     this.excursion = { algorithms, seed, watchedSeed };
     this.store.set({ algorithms: [algorithm], seed: watchedSeed, generation: 0, view: "watch" });
   }
+}
+function countsOf({ algorithm, results }) {
+  return { algorithm, runs: results.length, successes: results.filter((success) => success).length };
 }
 
 function makeCountInput(store, problem) {
@@ -145,13 +196,4 @@ function makeCountInput(store, problem) {
     read: () => store.state.runs,
     write: (runs) => store.set({ runs: checkedInteger("runs", runs, 1, MOST_RUNS) }),
   });
-}
-
-function seriesOfRates({ algorithm, counts }) {
-  return {
-    label: titleOf(algorithm),
-    kind: kindOf(algorithm),
-    points: counts.map(({ runs, successes }) => [runs, (100 * successes) / runs]),
-    band: counts.map(({ runs, low, high }) => [runs, 100 * low, 100 * high]),
-  };
 }

@@ -18,6 +18,8 @@ export function defaultState() {
     generation: 0,
     runs: 50,
     controller: PRESETS[0].controller,
+    course: null,
+    challenge: null, // the number of the one that is open
     result: null,
   };
 }

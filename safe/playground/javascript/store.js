@@ -2,7 +2,8 @@
 
 export const SETTINGS = ["maze", "algorithms", "seed", "parameters"]; // the parts of a state that make a run
 
-/** state: { view, maze, algorithms, seed, parameters, generation, runs, controller, result }; see state.js. */
+/** state: { view, maze, algorithms, seed, parameters, generation, runs, controller, course, challenge, counted,
+ * result }; see state.js. */
 export class Store {
   constructor(state) {
     this.state = state;

@@ -11,6 +11,7 @@ const TABS = [
     title: "Many runs",
     summary: "How often does it work, and how many runs does it take to be sure?",
   },
+  { view: "challenges", title: "Challenges", summary: "Questions to answer by what you do in the other tabs." },
 ];
 
 export class Tabs {

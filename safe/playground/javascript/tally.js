@@ -1,6 +1,6 @@
 // Successes counted run by run, and what they say of two algorithms.
 
-import { titleOf } from "./labels.js";
+import { kindOf, titleOf } from "./labels.js";
 import { successInterval } from "./statistics.js";
 
 /** Successes after each run that is over and before which all are: { runs, successes, low, high }, the 95 % interval.
@@ -15,6 +15,16 @@ export function tally(results) {
     counts.push({ runs, successes, low, high });
   }
   return counts;
+}
+
+/** The line of a chart for the rate after each run, with its interval. */
+export function seriesOfRates({ algorithm, counts }) {
+  return {
+    label: titleOf(algorithm),
+    kind: kindOf(algorithm),
+    points: counts.map(({ runs, successes }) => [runs, (100 * successes) / runs]),
+    band: counts.map(({ runs, low, high }) => [runs, 100 * low, 100 * high]),
+  };
 }
 
 /** For each pair of algorithms: since which run their intervals have been apart. tallies: { algorithm, counts }. */

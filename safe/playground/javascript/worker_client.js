@@ -1,5 +1,13 @@
 // A worker, as a page sees it (see worker.js).
 
+const MOST_WORKERS = 8;
+
+/** As many workers as the machine has cores, for so many jobs. */
+export function makeClients(makeWorker, jobs) {
+  const workers = Math.min(MOST_WORKERS, navigator.hardwareConcurrency || 2, jobs);
+  return Array.from({ length: workers }, () => new WorkerClient(makeWorker));
+}
+
 export class WorkerClient {
   constructor(makeWorker) {
     this.waiting = new Map(); // by the number of a message, who waits for its answer

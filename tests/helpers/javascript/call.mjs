@@ -2,6 +2,7 @@
 // A double comes back as it was, since both sides write the shortest digits that distinguish it from all others.
 
 import { shown } from "../../../safe/playground/javascript/checks.js";
+import { digestOf } from "../../../safe/playground/javascript/digest.js";
 import {
   endpoints,
   evolve,
@@ -50,6 +51,7 @@ const FUNCTIONS = {
   generations: ({ maze, algorithm, seed, parameters }) => [
     ...generations(parseMaze(maze), algorithm, seedOf(seed), parameters),
   ],
+  digest: ({ maze, algorithm, seed, parameters }) => digestOf(parseMaze(maze), algorithm, BigInt(seed), parameters),
   neighbours: ({ maze, algorithm, seed, parameters }) => {
     const evolution = new Evolution(parseMaze(maze), algorithm, seedOf(seed), parameters);
     while (evolution.advance());
