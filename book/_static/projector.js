@@ -10,7 +10,7 @@
   const USES_SPACE = "a, button, summary";
   const MEDIA = ".live, img:not(.live *, .panels *)";
   const SCREENFUL = 0.85; // of a window that one scrolls at once
-  const LEAST_ROOM = 0.5; // of a window, for a figure
+  const LEAST_ROOM = 0.75; // of a window, for a figure
 
   const root = document.documentElement;
   const headed = ":scope > :is(h1, h2, h3, h4, h5, h6)";
