@@ -10,11 +10,13 @@
   const USES_SPACE = "a, button, summary";
   const MEDIA = ".live, img:not(.live *, .panels *)";
   const SCREENFUL = 0.85; // of a window that one scrolls at once
-  const LEAST_ROOM = 0.75; // of a window, for a figure
+  const SLACK = 0.05; // of a window, which may be hidden when one turns
+  const ENOUGH = 0.4, AMPLE = 0.75; // of a window, for a figure: if less is left than enough, one scrolls anyway
 
   const root = document.documentElement;
   const headed = ":scope > :is(h1, h2, h3, h4, h5, h6)";
-  const sections = [...document.querySelectorAll(".bd-article section")].filter((one) => one.querySelector(headed));
+  const article = document.querySelector(".bd-article");
+  const sections = [...article.querySelectorAll("section")].filter((one) => one.querySelector(headed));
   let place = null; // in sections; null if the page is not projected
 
   const button = (title, onclick) => {
@@ -80,9 +82,9 @@
     const shown = sections[place];
     const media = [...shown.querySelectorAll(MEDIA)].filter((one) => sectionOf(one) === shown);
     for (const one of media) one.style.display = "none";
-    const left = innerHeight - bar.offsetHeight - shown.getBoundingClientRect().bottom - scrollY;
+    const left = innerHeight - article.getBoundingClientRect().bottom - scrollY;
     for (const one of media) one.style.display = "";
-    const room = Math.max(left / media.length, LEAST_ROOM * innerHeight);
+    const room = left / media.length < ENOUGH * innerHeight ? AMPLE * innerHeight : left / media.length;
     shown.style.setProperty("--room", `${room}px`);
     for (const figure of media.filter((one) => one.matches(".live"))) {
       figure.style.zoom = "";
@@ -94,7 +96,7 @@
   /** Turn to another section, or first scroll what does not fit on the screen. */
   function turn(direction) {
     const hidden = direction > 0 ? root.scrollHeight - scrollY - innerHeight : scrollY;
-    if (hidden > 1) scrollBy({ top: direction * SCREENFUL * innerHeight, behavior: "instant" });
+    if (hidden > SLACK * innerHeight) scrollBy({ top: direction * SCREENFUL * innerHeight, behavior: "instant" });
     else if (sections[place + direction]) show(place + direction);
   }
 
@@ -144,5 +146,8 @@
   addEventListener("resize", () => place !== null && fit());
   addEventListener("hashchange", () => place !== null && sections.length > 1 && show(placeToBegin()));
   globalThis.project = enter; // for the button above every page
-  if (new URLSearchParams(location.search).has("projector") && sections.length) enter();
+  if (new URLSearchParams(location.search).has("projector")) {
+    enter();
+    addEventListener("load", () => place !== null && read(sections[place])); // to go to a fragment takes the focus away
+  }
 })();
