@@ -3,11 +3,11 @@
 
 PYTHON ?= python3
 
-.PHONY: help env execute book student pdf test develop bench fuzz evidence format picture constraints clean
+.PHONY: help env execute book student pdf worksheet test develop bench fuzz evidence format picture constraints clean
 .NOTPARALLEL: # steps share one environment
 
 help:
 	@$(PYTHON) make.py
 
-env execute book student pdf test develop bench fuzz evidence format picture constraints clean:
+env execute book student pdf worksheet test develop bench fuzz evidence format picture constraints clean:
 	@$(PYTHON) make.py $@

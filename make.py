@@ -11,6 +11,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 IS_WINDOWS = os.name == "nt"
@@ -22,6 +23,21 @@ UNCHANGED = ("python", "book/unchanged.py")
 COMPILE = ("python", "-c", "from safe.evolution import compile_kernels as run; run(), run(with_choices=True)")
 BOUNDS_CHECKED = {"NUMBA_BOUNDSCHECK": "1", "NUMBA_CACHE_DIR": ".numba-boundscheck"}
 ATHERIS = ("python", "-m", "tests.helpers.fuzz_atheris")
+BROWSERS = (  # that print and that tests drive: programs of these names, or files
+    "chromium-headless-shell",  # the same engine without windows, which takes half the time
+    "chromium",
+    "chromium-browser",
+    "google-chrome",
+    "microsoft-edge",
+    "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+    "/Applications/Chromium.app/Contents/MacOS/Chromium",
+    "/Applications/Microsoft Edge.app/Contents/MacOS/Microsoft Edge",
+    *(
+        os.path.join(os.environ.get(folder, ""), *program.split("/"))
+        for program in ("Google/Chrome/Application/chrome.exe", "Microsoft/Edge/Application/msedge.exe")
+        for folder in ("PROGRAMFILES", "PROGRAMFILES(X86)", "LOCALAPPDATA")
+    ),
+)
 
 
 # Steps
@@ -66,6 +82,13 @@ def pdf():
         print(*log.read_text(encoding="utf-8", errors="replace").splitlines()[-30:], sep="\n", flush=True)
     _check(code)
     print("The book: _build/latex/safe.pdf", flush=True)
+
+
+def worksheet():
+    """print the worksheet, as _build/worksheet.pdf, by an installed Chromium, Chrome or Edge"""
+    book()
+    _print(Path("_build", "html", "book", "worksheet.html"), Path("_build", "worksheet.pdf"))
+    print("The worksheet: _build/worksheet.pdf", flush=True)
 
 
 def test():
@@ -152,6 +175,7 @@ STEPS = {
         book,
         student,
         pdf,
+        worksheet,
         test,
         develop,
         bench,
@@ -163,6 +187,36 @@ STEPS = {
         clean,
     )
 }
+
+
+# Browsers
+
+
+def browser():
+    """The first of `BROWSERS` that is installed, or None."""
+    return next((found for name in BROWSERS if (found := shutil.which(name))), None)
+
+
+def _print(page, pdf):
+    """Print a page of the book."""
+    program = browser()
+    if program is None:
+        sys.exit(f"No browser found that can print: install Chromium, Chrome or Edge, or print {page} from another.")
+    pdf.unlink(missing_ok=True)
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:  # not that of a browser that is open
+        command = [
+            program,
+            "--headless",
+            "--disable-gpu",
+            "--no-sandbox",  # the page is ours, and containers have no sandbox
+            "--no-pdf-header-footer",
+            f"--user-data-dir={profile}",
+            f"--print-to-pdf={pdf.resolve()}",
+            page.resolve().as_uri(),
+        ]
+        _check(_end(subprocess.Popen(command, stderr=subprocess.DEVNULL)))
+    if not pdf.exists():
+        sys.exit(f"{program} has not printed {page}")
 
 
 # The environment

@@ -1,4 +1,5 @@
-"""Adjustments of the theme: buttons for the repository, if there is one, no script without need, no code cut off."""
+"""Adjustments of the theme: buttons for the repository, if there is one, and for the projector, no script without need,
+no code cut off."""
 
 from __future__ import annotations
 
@@ -11,6 +12,13 @@ from sphinx.util.typing import ExtensionMetadata
 CODE = re.compile(r'(<div class="highlight"><pre>)(.*?)(</pre>)', re.DOTALL)
 WIDE = 80  # characters; longer lines of code may need to be wrapped
 LAUNCH = {"binderhub_url": "https://mybinder.org", "colab_url": "https://colab.research.google.com"}
+PROJECTOR = {
+    "type": "javascript",
+    "javascript": "project()",
+    "tooltip": "Show on a projector",
+    "icon": "fas fa-person-chalkboard",
+    "label": "projector-button",
+}
 
 
 def _set_buttons(app: Sphinx, config) -> None:
@@ -36,6 +44,14 @@ def _remove_mathjax(app: Sphinx, pagename: str, templatename: str, context: dict
     if 'class="math' not in context.get("body", ""):
         scripts = context.get("script_files", [])
         context["script_files"] = [script for script in scripts if "mathjax" not in (script.filename or "")]
+
+
+def _add_projector(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
+    """Let every page that has sections be shown on a projector (see `_static/projector.js`)."""
+    if doctree is None:
+        return
+    app.add_js_file("projector.js", defer="defer")
+    context["header_buttons"].append(PROJECTOR)
 
 
 def _remove_address(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
@@ -76,6 +92,7 @@ def setup(app: Sphinx) -> ExtensionMetadata:
     app.connect("config-inited", _set_buttons)
     app.connect("html-page-context", _remove_thebe, priority=900)
     app.connect("html-page-context", _remove_mathjax, priority=900)
+    app.connect("html-page-context", _add_projector, priority=502)  # after the theme's first buttons
     app.connect("html-page-context", _remove_address, priority=900)
     app.connect("html-page-context", _add_filter)
     app.connect("html-page-context", _wrap_code)

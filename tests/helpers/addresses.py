@@ -1,6 +1,8 @@
 """Addresses of the playground, read as its page reads them."""
 
 import base64
+import re
+from pathlib import Path
 from urllib.parse import unquote
 
 import numpy as np
@@ -8,6 +10,7 @@ import numpy as np
 import safe
 from safe.algorithms import WEIGHABLE
 from safe.judges import KINDS, RATINGS, SCALINGS
+from safe.maze_files import packaged_mazes, parse_maze
 from safe.operators import JUDGINGS
 from safe.repertoire import POOLS
 
@@ -22,13 +25,19 @@ def values_of(address):
 
 def maze_of(text):
     if "/" not in text:
-        return safe.load_maze(text)
+        return packaged_mazes().get(text) or _maze_of_playground(text)
     size, start, goal, bits = text.split("/")
     height, width = map(int, size.split("x"))
     packed = np.frombuffer(base64.urlsafe_b64decode(bits + "=" * (-len(bits) % 4)), dtype=np.uint8)
     assert len(packed) == -(-height * width // 8)
     walls = np.unpackbits(packed, count=height * width).reshape(height, width)
     return safe.Maze(walls, *(tuple(map(int, cell.split(","))) for cell in (start, goal)))
+
+
+def _maze_of_playground(name):
+    modules = Path(safe.__file__).parent / "playground" / "javascript"
+    named = (modules / "named_mazes.js").read_text(encoding="utf-8")
+    return parse_maze(re.search(rf"^  {name}: `(.*?)`", named, re.DOTALL | re.MULTILINE).group(1), name)
 
 
 def algorithm_of(text):

@@ -2,20 +2,14 @@
 
 import functools
 import http.server
-import shutil
 import threading
 from contextlib import contextmanager
 
 import pytest
 
-BROWSERS = (
-    "chromium-headless-shell",  # the same engine without windows, which takes half the time
-    "chromium",
-    "chromium-browser",
-    "google-chrome",
-    "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
-)
-BROWSER = next((found for name in BROWSERS if (found := shutil.which(name))), None)
+import make
+
+BROWSER = make.browser()
 
 DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 800}
 
