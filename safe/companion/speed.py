@@ -173,6 +173,12 @@ def first_use_table(measured: pd.DataFrame) -> pd.DataFrame:
     return first[["seconds"]]
 
 
+def before_table(measured: pd.DataFrame) -> pd.DataFrame:
+    """An earlier tree and this one, seconds of the processor, and the ratio of the second to the first."""
+    stages = _of(measured, "before").set_index("stage")
+    return stages[["before", "now", "ratio"]]
+
+
 def key_figures(measured: pd.DataFrame) -> pd.DataFrame:
     """The figures that the prose quotes, rounded to two digits, in one column.
 

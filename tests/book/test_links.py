@@ -66,6 +66,7 @@ ABOUT_NEITHER = {
     "tab-effects",
     "tab-effects-answers",
     "tab-elites",
+    "tab-before",
     "tab-first-use",
     "tab-kinds-engagement",
     "tab-kinds-fields",
