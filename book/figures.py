@@ -11,8 +11,6 @@ A chapter shows a figure of a notebook where its argument needs it, with a capti
 A figure that a notebook shows by `safe.companion.notebook.show_figure` has links, which travel beside its image as
 metadata of the output. On the page each is an area over its part of the image. Print has the image alone.
 
-Every image on a page says how large it is, so that nothing moves when it is there.
-
 Every image of a page states its size, so that nothing moves once it is loaded.
 
 Where the panels of a figure are travels there, too. A narrow page shows the same image once for each panel and each

@@ -11,8 +11,8 @@ from tests.helpers.playground_page import FIGURES
 
 
 def test_only_its_page_and_chapters_with_its_figures_load_it(html):
-    loading = {"playground", *FIGURES}
-    for file in ("bundle.js", "playground.css"):
+    having = {"playground", "slides", *FIGURES}
+    for file, loading in (("bundle.js", having), ("playground.css", having | {"class"})):
         loaded_by = [page for page in html.rglob("*.html") if f"_static/playground/{file}" in page.read_text()]
         assert sorted(loaded_by) == sorted(html / "book" / f"{name}.html" for name in loading)
     assert (html / "_static" / "playground" / "bundle.js").read_text().startswith(bundle.script())

@@ -34,7 +34,7 @@ pytestmark = needs_browser
 def test_a_first_visit_opens_on_a_run_about_to_succeed(visit):
     page = visit()
     panel(page, "SAFE").get_by_text("Generation 40").wait_for()
-    assert "press Play" in page.locator(".welcome").inner_text()
+    assert "press Play" in page.locator("p.welcome").inner_text()
     page.get_by_role("button", name="Play").click()
     panel(page, "SAFE").get_by_text("Success").wait_for()
     assert panel(page, "SAFE").inner_text() == status_of(safe.evolve("maze1", "safe", 3))
