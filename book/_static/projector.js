@@ -16,7 +16,9 @@
   const root = document.documentElement;
   const headed = ":scope > :is(h1, h2, h3, h4, h5, h6)";
   const article = document.querySelector(".bd-article");
-  const sections = [...article.querySelectorAll("section:not(.playground *)")].filter((one) => one.querySelector(headed));
+  const sections = [...article.querySelectorAll("section:not(.playground *)")].filter((one) =>
+    one.querySelector(headed)
+  );
   let place = null; // in sections; null if the page is not projected
 
   const button = (title, onclick) => {
