@@ -22,11 +22,16 @@ TINY = Parameters(population=10, objectives=10, generations=2, archive=10)
 EXPERIMENTS = 10  # that share a store
 SAMPLE = 10
 MEMORY = """
-import resource, sys
+import re, resource, sys
+from pathlib import Path
 import safe
 from benchmarks.test_growth import experiments_of
 path, size = sys.argv[1], int(sys.argv[2])
-peak = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+def peak():  # in bytes; on Linux `resource` would begin with that of the process which started this one
+    status = Path("/proc/self/status")
+    if status.exists():
+        return 1024 * int(re.search("VmHWM:[^0-9]*([0-9]+)", status.read_text()).group(1))
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 safe.run(experiments_of(EXPERIMENTS)[0], path, progress=False)
 before = peak()
 tables = [safe.run(experiment, path, progress=False) for experiment in experiments_of(size)]

@@ -173,6 +173,22 @@ def first_use_table(measured: pd.DataFrame) -> pd.DataFrame:
     return first[["seconds"]]
 
 
+def stored_table(measured: pd.DataFrame) -> pd.DataFrame:
+    """Stores of up to a million runs.
+
+    Returns
+    -------
+    pandas.DataFrame, indexed by how many runs a store has
+        megabytes, its size; table and tables, seconds until one of its experiments is a table, and until all are;
+        verify, seconds to make a sample of its runs again; memory, what all tables took at most, over their own.
+    """
+    stored = _of(measured, "stored runs")
+    table = stored.pivot_table(index="size", columns="what", values="seconds")
+    of_all = stored[stored.what == "tables"].set_index("size")
+    table.insert(0, "megabytes", of_all.bytes / 1e6)
+    return table.assign(memory=of_all.memory).rename_axis(index="runs", columns=None)
+
+
 def before_table(measured: pd.DataFrame) -> pd.DataFrame:
     """An earlier tree and this one, seconds of the processor, and the ratio of the second to the first."""
     stages = _of(measured, "before").set_index("stage")

@@ -52,6 +52,7 @@ ABOUT_NEITHER = {
     "tab-beyond",
     *(f"tab-beyond-{name}" for name in (*all_questions(), "contest")),
     "tab-budget",
+    "tab-before",
     "tab-class-pooled",
     "tab-class-refused",
     "tab-contest-asked",
@@ -66,7 +67,6 @@ ABOUT_NEITHER = {
     "tab-effects",
     "tab-effects-answers",
     "tab-elites",
-    "tab-before",
     "tab-first-use",
     "tab-kinds-engagement",
     "tab-kinds-fields",
@@ -93,6 +93,7 @@ ABOUT_NEITHER = {
     "tab-selects-answers",
     "tab-selects-inside",
     "tab-sensors",
+    "tab-stored",
     "tab-unseen",
     "tab-verdicts",
 }

@@ -73,6 +73,20 @@ def test_growth(measured):
     assert not table.duplicated(["what", "of", "size"]).any()
 
 
+def test_stores_of_a_million_runs(measured):
+    table = speed.stored_table(measured)
+    assert table.index.tolist() == [1000, 10_000, 100_000, 1_000_000]
+    assert table.columns.tolist() == ["megabytes", "table", "tables", "verify", "memory"]
+    assert table.megabytes.is_monotonic_increasing
+    assert 1 <= table.memory[1_000_000] < 2
+
+
+def test_an_earlier_tree_is_compared_with_this_one(measured):
+    table = speed.before_table(measured)
+    assert table.ratio.to_numpy() == pytest.approx(table.now / table.before, rel=0.25)
+    assert table.ratio["first run, not compiled"] < 0.7
+
+
 def test_key_figures(measured):
     numbers = speed.key_figures(measured).speed
     assert numbers.core_seconds == pytest.approx(speed.paper_table(measured).core_seconds.sum(), rel=0.05)
