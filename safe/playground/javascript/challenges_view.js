@@ -31,7 +31,7 @@ export class ChallengesView {
       make(
         "p",
         {},
-        "To show what you have solved, write your name and send the code. It holds your solutions, so that whoever gets it can check them.",
+        "To show what you have solved, write your name and send the code. It holds your solutions, so that your teacher can check them.",
       ),
       makeControls(labelled("Your name", this.name)),
       this.code.element,

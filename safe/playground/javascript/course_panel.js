@@ -31,7 +31,7 @@ export class CoursePanel {
     this.line = makeCopyField("Line with your runs", "Copy the line");
     const save = makeButton("Save as a file", () => download(this.file, `${this.text}\n`));
     this.finished = makeBlock(
-      make("p", {}, "Your runs are over. Send this line, or the file, to whoever collects them:"),
+      make("p", {}, "Your runs are over. Send this line, or the file, to the person who collects them:"),
       this.line.element,
       makeControls(save),
     );
