@@ -75,6 +75,9 @@ def test_a_bad_value_is_named(notebook, name, tmp_path, monkeypatch):
         parameters["store"] = str(tmp_path / "results.sqlite")
     if name == "store" and "evidence.runs" in notebook.read_text():
         parameters["seed"] = 7  # of which no runs are recorded
+    if name == "traced":  # which is asked for late
+        Path("mine.txt").write_text(MAZE)
+        parameters |= {"maze": "mine.txt", "runs": 2}
     with pytest.raises(ValueError, match=f"^{message}") as error:
         run(notebook, **parameters)
     assert "\n" not in str(error.value)
