@@ -103,7 +103,7 @@ def test_plans_take_as_long_as_they_say():
     page = (BOOK / "teaching.md").read_text(encoding="utf-8")
     for name, length in ("tab-lesson", 50), ("tab-ninety", 90):
         plan = page.split(f":name: {name}", 1)[1].split("```", 1)[0]
-        spans = [tuple(map(int, span)) for span in re.findall(r"^\* - (\d+) to (\d+)$", plan, re.MULTILINE)]
+        spans = [tuple(map(int, span)) for span in re.findall(r"^\* - (\d+)\u2013(\d+)$", plan, re.MULTILINE)]
         assert [start for start, _ in spans] == [0, *(end for _, end in spans[:-1])], name
         assert spans[-1][1] == length
 
