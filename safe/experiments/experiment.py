@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 import string
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache
@@ -22,7 +22,7 @@ from safe import checks
 from safe.algorithms import Algorithm, Parameters, get_algorithm
 from safe.evolution import RULES, Generation, Run, generations
 from safe.experiments.dispatch import Dispatcher
-from safe.experiments.store import Store, StoredExperiment, StoredRun, content_text, sha256
+from safe.experiments.store import Store, StoredExperiment, content_text, sha256
 from safe.maze import Maze
 from safe.maze_files import load_maze
 from safe.robot import WEIGHTS
@@ -222,13 +222,13 @@ def run(
         entries = results.experiments(experiment.digest)
         is_complete = len(entries) == 1 and not _missing(experiment, results, entries[0])
         if is_complete:
-            return _table(experiment.runs, results.runs(entries[0], experiment.runs))
+            return _table(experiment, results, entries[0])
     with Store.for_writing(store) as results:
         entry = results.entry(experiment.content, experiment.algorithm.name, experiment.maze.name)
         missing = _missing(experiment, results, entry)
         if missing:
             Dispatcher(experiment, results, entry, executor, cores).compute(missing, progress)
-        return _table(experiment.runs, results.runs(entry, experiment.runs))
+        return _table(experiment, results, entry)
 
 
 def _missing(experiment: Experiment, store: Store, entry: StoredExperiment) -> list[int]:
@@ -238,18 +238,22 @@ def _missing(experiment: Experiment, store: Store, entry: StoredExperiment) -> l
     return np.flatnonzero(is_missing).tolist()
 
 
-def _table(size: int, stored: Iterable[StoredRun]) -> pd.DataFrame:
-    """The table of so many runs, made without a copy, since it may need much of the memory."""
+def _table(experiment: Experiment, store: Store, entry: StoredExperiment) -> pd.DataFrame:
+    """The table of an experiment that is complete, made without a copy, since it may need much of the memory."""
     import pandas as pd
 
     columns: dict[str, np.ndarray] = {}
-    for place, (number, run, seconds, _) in enumerate(stored):
+    size = 0
+    for number, run, seconds, _ in store.runs(entry, experiment.runs):
         row = {"run": number, **row_of(run), "seconds": seconds}
-        if place == 0:
-            columns = {name: np.empty(size, dtype=type(value)) for name, value in row.items()}
+        if size == 0:
+            columns = {name: np.empty(experiment.runs, dtype=type(value)) for name, value in row.items()}
         for name, value in row.items():
-            columns[name][place] = value
-    return pd.DataFrame({name: column[: place + 1] for name, column in columns.items()}, copy=False)
+            columns[name][size] = value
+        size += 1
+    if size < experiment.runs:  # an index may name runs that its table no longer has
+        raise store.damaged(f"the list of the runs of {entry.label}")
+    return pd.DataFrame(columns, copy=False)
 
 
 def run_all(

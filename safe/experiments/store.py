@@ -143,7 +143,8 @@ class Store:
     def _refusal(self, demand: str, reason: str) -> StoreError:
         return StoreError(f"store must {demand}; got {self} ({reason})")
 
-    def _damaged(self, what: str) -> StoreError:
+    def damaged(self, what: str) -> StoreError:
+        """The error that says what of this store was altered or damaged."""
         return StoreError(f"store must hold what was written to it; got {self}, where {what} was altered or damaged")
 
     def entry(self, content: dict, algorithm: str, maze: str) -> StoredExperiment:
@@ -156,7 +157,7 @@ class Store:
             )
         found = self.experiments(sha256(text))
         if len(found) != 1:  # as a damaged index can have it
-            raise self._damaged("its list of experiments")
+            raise self.damaged("its list of experiments")
         return found[0]
 
     def experiments(self, digest: str | None = None) -> list[StoredExperiment]:
@@ -172,7 +173,7 @@ class Store:
             try:
                 content = _read_content(text, its_digest)
             except (TypeError, ValueError):
-                raise self._damaged(f"experiment {number}") from None
+                raise self.damaged(f"experiment {number}") from None
             labels = (label if checks.is_text(label) else checks.shown(label) for label in labels)
             found.append(StoredExperiment(number, its_digest, content, *labels))
         return found
@@ -215,7 +216,7 @@ class Store:
                 f"SELECT {columns(Origin._fields)} FROM batches WHERE id = ?", (batch,)
             ).fetchone()
         if row is None:
-            raise self._damaged(f"batch {checks.shown(batch)}")
+            raise self.damaged(f"batch {checks.shown(batch)}")
         return Origin(*row)
 
     def runs(self, experiment: StoredExperiment, below: int = 2**63 - 1, first: int = 0) -> Iterator[StoredRun]:
@@ -237,7 +238,7 @@ class Store:
                     if found.number <= last or _lengths(found.run) != lengths:
                         raise ValueError
                 except (TypeError, ValueError):
-                    raise self._damaged(f"run {checks.shown(number)} of {experiment.label}") from None
+                    raise self.damaged(f"run {checks.shown(number)} of {experiment.label}") from None
                 yield found
                 last = found.number
 

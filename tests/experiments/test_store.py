@@ -2,6 +2,7 @@ import json
 import sqlite3
 from contextlib import closing
 from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 
 import pandas as pd
@@ -125,6 +126,13 @@ def test_altered_by_hand(store, change):
     else:
         assert_refused(store, "was altered or damaged")
     assert_refused_by(lambda: verify(store, progress=False))
+
+
+def test_runs_that_are_counted_but_cannot_be_read(store, monkeypatch):
+    """Regression: the index of a damaged file named runs that its table had no longer, and the table came out short."""
+    read = Store.runs
+    monkeypatch.setattr(Store, "runs", lambda *arguments: islice(read(*arguments), 11))
+    assert_refused_by(lambda: run(EXPERIMENT, store, progress=False))
 
 
 def assert_refused_by(call):
