@@ -47,7 +47,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from safe.kernel import kernel
+from safe.kernel import index, kernel
 
 KINDS = ("weights", "goal", "mixed")  # of objective functions
 SCALINGS = ("raw", "maximum", "rank")  # of components
@@ -129,11 +129,13 @@ def score_all(judges: Judges, j: int, scores: np.ndarray) -> None:
         for i in range(len(scores)):
             scores[i] = -(abs(endpoints[i, 0] - row) + abs(endpoints[i, 1] - column))
         return
+    weight = objectives[j, 0]
     for i in range(len(scores)):
-        scores[i] = 0.0
-    for c in range(len(components)):
+        scores[i] = 0.0 + weight * components[0, i]
+    for c in range(1, len(components)):
+        weight = objectives[j, c]
         for i in range(len(scores)):
-            scores[i] += objectives[j, c] * components[c, i]
+            scores[i] += weight * components[c, i]
 
 
 @kernel
@@ -183,36 +185,41 @@ def best_scores(judges: Judges, fitness: np.ndarray, winners: np.ndarray) -> Non
     Components are never negative, so a weighted sum whose coefficients are all at most those of an earlier one cannot
     win. Leaving such dominated ones out leaves few of a random population.
     """
-    objectives = judges.objectives
-    contenders = np.empty(len(objectives), dtype=np.int64)
-    m = np.int64(0)
-    for j in range(len(objectives)):
-        if j >= judges.first_goal or not _is_dominated(objectives, j, contenders, m):
-            contenders[m] = j
-            m += 1
-    n = len(fitness)
+    n, (m, genes) = len(fitness), judges.objectives.shape
+    weighted_sums = min(m, judges.first_goal)
+    coefficients = np.empty((genes, weighted_sums))  # in rows, so that the processor compares several at once
+    for j in range(weighted_sums):
+        for gene in range(genes):
+            coefficients[gene, j] = judges.objectives[j, gene]
+    can_win, exceeds = np.ones(m, dtype=np.int64), np.empty(m, dtype=np.int64)
     scores = np.empty(n)
     for i in range(n):
         fitness[i] = -np.inf
-    for e in range(m):
-        j = contenders[e]
+    for j in range(m):
+        if not can_win[j]:
+            continue
         score_all(judges, j, scores)
-        for i in range(n):  # selects, not branches, so that the processor handles several solutions at once
+        for i in range(n):  # selects, not branches, for the same reason
             is_better = scores[i] > fitness[i]
             fitness[i] = scores[i] if is_better else fitness[i]
             winners[i] = j if is_better else winners[i]
+        if j < weighted_sums:
+            _rule_out_dominated(coefficients, j, exceeds, can_win)
 
 
-@kernel
-def _is_dominated(objectives: np.ndarray, j: int, contenders: np.ndarray, m: int) -> bool:
-    """Does one of the first m contenders have coefficients that are all at least those of the j-th one?"""
-    for e in range(m):
-        exceeds = False
-        for c in range(objectives.shape[1]):
-            exceeds |= objectives[j, c] > objectives[contenders[e], c]
-        if not exceeds:
-            return True
-    return False
+@kernel(inline="always")
+def _rule_out_dominated(coefficients: np.ndarray, j: int, exceeds: np.ndarray, can_win: np.ndarray) -> None:
+    """Of the weighted sums behind the j-th, only those with a coefficient above its own can still win."""
+    genes, weighted_sums = coefficients.shape
+    start, end = index(j + 1), index(weighted_sums)
+    for later in range(start, end):
+        exceeds[later] = 0
+    for gene in range(genes):
+        coefficient = coefficients[gene, j]
+        for later in range(start, end):
+            exceeds[later] |= coefficients[gene, later] > coefficient
+    for later in range(start, end):
+        can_win[later] &= exceeds[later]
 
 
 @kernel

@@ -24,7 +24,8 @@ class Grid(NamedTuple):
     sides: tuple[int, int]  # rows and columns
 
 
-PER_CELL = 4.0  # points in a cell, on average
+PER_CELL = 2.0  # points in a cell, on average
+ASPECT = 4.0  # of a cell, its height to its width: a search begins few rows, and measures little beyond its reach
 SLACK = 1.35  # a first search expects this many times the neighbours wanted, so that it rarely finds too few
 MANY = 1000  # from here on, or from three times those wanted, a heap orders values faster than comparing all pairs
 NEARLY_NOTHING = 1e-150  # an extent below which points count as one: LARGEST divided by it is still finite
@@ -36,20 +37,20 @@ NEARLY_NOTHING = 1e-150  # an extent below which points count as one: LARGEST di
 @kernel
 def grid_over(points: np.ndarray, size: int) -> Grid:
     """A grid over the range of these points, for `size` points in all."""
-    low, high = points[0].copy(), points[0].copy()
-    for i in range(1, len(points)):
-        for axis in range(points.shape[1]):
-            low[axis] = min(low[axis], points[i, axis])
-            high[axis] = max(high[axis], points[i, axis])
-    cells = 1 + int(math.sqrt(size / PER_CELL))  # in a row or column
-    first = _axis(low[0], high[0], cells)
-    second = _axis(low[1], high[1], cells) if points.shape[1] > 1 else _axis(0.0, 0.0, cells)
+    rows, columns = 1 + int(math.sqrt(size / PER_CELL / ASPECT)), 1 + int(math.sqrt(size / PER_CELL * ASPECT))
+    if points.shape[1] == 1:
+        low, scale, cells = _axis(points[:, 0], columns)
+        return Grid((low, 0.0), (scale, 0.0), (cells, 1))
+    first, second = _axis(points[:, 0], rows), _axis(points[:, 1], columns)
     return Grid((first[0], second[0]), (first[1], second[1]), (first[2], second[2]))
 
 
 @kernel
-def _axis(low: float, high: float, cells: int) -> tuple[float, float, int]:
+def _axis(coordinates: np.ndarray, cells: int) -> tuple[float, float, int]:
     """Start, scale and number of cells of one axis of a grid."""
+    low = high = coordinates[0]
+    for coordinate in coordinates:
+        low, high = min(low, coordinate), max(high, coordinate)
     extent = high - low
     return (low, cells / extent, cells) if extent > NEARLY_NOTHING else (low, 0.0, 1)
 
@@ -58,6 +59,12 @@ def _axis(low: float, high: float, cells: int) -> tuple[float, float, int]:
 def _cell_along(grid: Grid, axis: int, coordinate: float) -> int:
     """The row (axis 0) or column (axis 1) in which a coordinate lies."""
     return int(min(max((coordinate - grid.low[axis]) * grid.scale[axis], 0.0), grid.sides[axis] - 1.0))
+
+
+@kernel
+def _cell_of(grid: Grid, x: float, y: float) -> int:
+    """The number of the cell in which a point lies, row by row."""
+    return _cell_along(grid, 0, x) * grid.sides[1] + _cell_along(grid, 1, y)
 
 
 @kernel
@@ -73,31 +80,29 @@ def sort_into_cells(
     """Fill `members`, `ends` and `places` of `score_points`; returns the number of members."""
     n, dimensions = points.shape
     size = n + archived_size
-    unsorted = np.zeros((len(members), size))
+    second = min(1, dimensions - 1)  # on a line all points lie in one column, whatever their coordinate
+    cells = np.empty(size, dtype=np.int64)
+    for j in range(n):
+        cells[j] = _cell_of(grid, points[j, 0], points[j, second])
+    for j in range(archived_size):
+        cells[n + j] = _cell_of(grid, archived_points[0, j], archived_points[second, j])
+    for cell in range(len(ends)):
+        ends[cell] = 0
+    for j in range(size):  # not in the loops above, so that the processor computes several cells at once
+        ends[index(cells[j] + 2)] += 1
+    for cell in range(2, len(ends)):
+        ends[cell] += ends[cell - 1]
+    for j in range(size):
+        cell = index(cells[j] + 1)
+        cells[j] = ends[cell]  # from here on, the place of the point
+        ends[cell] += 1
     for axis in range(dimensions):
         for j in range(n):
-            unsorted[axis, j] = points[j, axis]
+            members[axis, index(cells[j])] = points[j, axis]
         for j in range(archived_size):
-            unsorted[axis, n + j] = archived_points[axis, j]
-    cells = np.empty(size, dtype=np.int64)
-    gaps = np.zeros(len(ends), dtype=np.int64)  # the place of the next point of each cell
-    for j in range(size):
-        cells[j] = _cell_along(grid, 0, unsorted[0, j]) * grid.sides[1] + _cell_along(grid, 1, unsorted[1, j])
-    for j in range(size):  # not in the loop above, so that the processor computes several cells at once
-        gaps[index(cells[j] + 1)] += 1
-    ends[0] = 0
-    for cell in range(1, len(ends)):
-        gaps[cell] += gaps[cell - 1]
-        ends[cell] = gaps[cell]
-    for j in range(size):
-        cell = index(cells[j])
-        cells[j] = gaps[cell]  # from here on, the place of the point
-        gaps[cell] += 1
-    for axis in range(dimensions):
-        for j in range(size):
-            members[axis, index(cells[j])] = unsorted[axis, j]
-    for j in range(n, size):
-        places[j - n] = cells[j]
+            members[axis, index(cells[n + j])] = archived_points[axis, j]
+    for j in range(archived_size):
+        places[j] = cells[n + j]
     return size
 
 
@@ -110,7 +115,7 @@ def even_reach(grid: Grid, share: float) -> float:
     return max(math.sqrt(SLACK * share * height * width / math.pi), SLACK * share * max(height, width) / 2)
 
 
-@kernel
+@kernel(inline="always")
 def look_around(
     point: np.ndarray,
     grid: Grid,
@@ -135,7 +140,7 @@ def look_around(
         for row in range(top - 1, bottom + 1):  # first the newcomers, then row by row
             start, end = in_cells, size
             if row >= top:
-                start, end = ends[row * columns + left], ends[row * columns + right + 1]
+                start, end = ends[index(row * columns + left)], ends[index(row * columns + right + 1)]
             found = _measure(point, members, start, end, taxicab, limit, distances, found)
         if is_all or found >= wanted:
             return found
@@ -170,9 +175,12 @@ def _along_axis(difference: float, taxicab: bool) -> float:
     return abs(difference) if taxicab else difference * difference
 
 
-@kernel
-def smallest(values: np.ndarray, size: int, wanted: int, ascending: np.ndarray) -> None:
-    """Put the `wanted` smallest of the first `size` values, which are not negative, in order into `ascending`."""
+@kernel(inline="always")
+def smallest(values: np.ndarray, size: int, wanted: int, ascending: np.ndarray, smaller: np.ndarray) -> None:
+    """Put the `wanted` smallest of the first `size` values, which are not negative, in order into `ascending`.
+
+    Every array has room for 4 more; what `values` holds behind the first `size`, and `smaller` (int64), is lost.
+    """
     if size > min(3 * wanted, MANY):
         for j in range(wanted):
             ascending[j] = np.inf
@@ -184,15 +192,23 @@ def smallest(values: np.ndarray, size: int, wanted: int, ascending: np.ndarray) 
             _sink(ascending[last], ascending, last)
             ascending[last] = largest
         return
-    for j in range(size):
+    padded = size + -size % 4
+    for j in range(size, size + 4):
+        values[j] = np.inf
+    for j in range(padded):
+        smaller[j] = 0
         ascending[j] = -1.0
-    for i in range(size):
-        value = values[i]
-        smaller = 0  # the number of smaller values is its place: no branch for the processor to mispredict
-        for j in range(size):
-            smaller += values[j] < value
-        ascending[smaller] = value
-    for j in range(1, size):  # equal values went to the same place
+    for i in range(0, padded, 4):  # four at once, so that counts are loaded and stored only a fourth as often
+        one, two = values[index(i)], values[index(i + 1)]
+        three, four = values[index(i + 2)], values[index(i + 3)]
+        for j in range(padded):
+            value = values[j]
+            smaller[j] += (one < value) + (two < value) + (three < value) + (four < value)
+    for j in range(
+        padded
+    ):  # the number of smaller values is a value's place: no branch for the processor to mispredict
+        ascending[index(smaller[j])] = values[j]
+    for j in range(1, wanted):  # equal values went to the same place
         ascending[j] = max(ascending[j], ascending[j - 1])
 
 

@@ -330,12 +330,13 @@ def score_points(points: np.ndarray, archive: ArchiveArrays, k: int, taxicab: bo
     most_newcomers = 1 + int(math.sqrt(most_members))
     # population and archive, cell by cell; then those that entered the archive since, in any order
     members = np.zeros((max(dimensions, 2), most_members + most_newcomers))  # points on a line get a second coordinate
-    ends = np.empty(grid.sides[0] * grid.sides[1] + 1, dtype=np.int64)  # a 0, then the end of each cell in `members`
+    # a 0, then the end of each cell in `members`; one more helps to count
+    ends = np.empty(grid.sides[0] * grid.sides[1] + 2, dtype=np.int64)
     places = np.empty(capacity, dtype=np.int64)  # of the archive's points in `members`
     size = in_cells = sort_into_cells(grid, points, archive.points, counts[0], members, ends, places)
     reach = even_reach(grid, (k + 1) / size)
-    distances = np.empty(members.shape[1])
-    ascending = np.empty(members.shape[1])
+    room = members.shape[1] + 4  # for `smallest`
+    distances, ascending, smaller = np.empty(room), np.empty(room), np.empty(room, dtype=np.int64)
     point = np.zeros(len(members))
     threshold = threshold_of(archive)
     for i in range(n):
@@ -344,7 +345,7 @@ def score_points(points: np.ndarray, archive: ArchiveArrays, k: int, taxicab: bo
         # the point also finds itself, at a distance of 0, which adds nothing to the sum
         wanted = min(k, n - 1 + counts[0]) + 1
         found = look_around(point, grid, members, ends, in_cells, size, wanted, reach, taxicab, distances)
-        smallest(distances, found, wanted, ascending)
+        smallest(distances, found, wanted, ascending, smaller)
         total = 0.0
         for j in range(wanted):
             total += ascending[j] if taxicab else math.sqrt(ascending[j])

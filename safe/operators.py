@@ -29,7 +29,7 @@ from typing import NamedTuple
 import numpy as np
 
 from safe.judges import Judges, favourite, score_all, score_one
-from safe.kernel import kernel
+from safe.kernel import index, kernel
 from safe.repertoire import GENERATION, REPERTOIRE, Repertoire
 
 JUDGINGS = ("best score", "drawn judge", "favourite")  # of solutions, when some of them are selected
@@ -93,7 +93,7 @@ def tournament(fitness: np.ndarray, size: int, rng: np.random.Generator) -> int:
     winner = draw_index(rng, len(fitness))
     for _ in range(size - 1):
         rival = draw_index(rng, len(fitness))
-        if fitness[rival] > fitness[winner]:
+        if fitness[index(rival)] > fitness[index(winner)]:
             winner = rival
     return winner
 
@@ -219,4 +219,4 @@ def copy_genomes(genomes: np.ndarray, into: np.ndarray) -> None:
 def _copy(genomes: np.ndarray, i: int, into: np.ndarray, place: int) -> None:
     """Copy one genome gene by gene: numba takes seconds longer to compile the copying of whole rows."""
     for gene in range(genomes.shape[1]):
-        into[place, gene] = genomes[i, gene]
+        into[index(place), gene] = genomes[index(i), gene]
