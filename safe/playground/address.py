@@ -287,10 +287,10 @@ def _read_algorithm(text: str) -> Algorithm:
     name, *parts = text.split(":")
     if not parts:
         return get_algorithm(name)
-    fields = ["rating", "objectives", "scaling", "judging", "kind", "pool", "components"]
+    names = ["rating", "objectives", "scaling", "judging", "kind", "pool", "components"]
     if len(parts) not in (2, 4, 7):
         raise ValueError(f"algorithm must be a name, or name:rating:a,b,...; got {checks.shown(text)}")
-    codes = dict(zip(fields, parts, strict=False))
+    codes = dict(zip(names, parts, strict=False))
     choices = {field: _choice_of(field, code) for field, code in codes.items() if field in _CHOICES}
     if "components" in codes:
         choices["components"] = [_choice_of("components", code) for code in codes["components"].split(",")]
