@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 import glob
 import hashlib
@@ -35,9 +36,13 @@ def kernel(function: Callable | None = None, *, inline: str = "never") -> Callab
         return functools.partial(kernel, inline=inline)
     if numba.config.DISABLE_JIT:
         return function
-    compiled = numba.njit(nogil=True, error_model="numpy", inline=inline)(function)
+    options = {"nogil": True, "error_model": "numpy", "inline": inline, "no_cfunc_wrapper": True}
+    compiled = numba.njit(**options)(function)
+    inner = numba.njit(no_cpython_wrapper=True, **options)(function)
+    compiled.get_call_template, compiled.get_overload = inner.get_call_template, inner.get_overload
     try:
         compiled._cache = _KernelCache(function)  # as numba's own `cache=True` does with a cache of its own
+        inner._cache = compiled._cache.for_inner()
     except RuntimeError:  # no folder for it is writable
         _KernelCache.fault = "no folder is writable for its cache"
     return compiled
@@ -83,6 +88,16 @@ class _KernelCache(FunctionCache):
 
     _impl_class = _SourcesInTheName
     fault: str | None = None  # why what is compiled is not kept
+    is_inner = False
+
+    def for_inner(self) -> _KernelCache:
+        """A cache in the same files for the function as other kernels call it."""
+        inner = copy.copy(self)
+        inner.is_inner = True
+        return inner
+
+    def _index_key(self, *arguments: object) -> tuple:
+        return *super()._index_key(*arguments), self.is_inner
 
     def load_overload(self, *arguments: object) -> object:
         try:
