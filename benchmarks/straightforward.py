@@ -88,7 +88,7 @@ def walk(maze: MazeArrays, controller: np.ndarray, steps: int) -> tuple[int, int
     return row, column
 
 
-@kernel
+@kernel(makes_arrays=True)
 def rate(points: np.ndarray, archive: Archive, k: int, taxicab: bool, scores: np.ndarray) -> None:
     n = len(points)
     for i in range(n):

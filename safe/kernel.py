@@ -21,24 +21,28 @@ from tqdm import tqdm
 _PACKAGE = Path(__file__).parent
 
 
-def kernel(function: Callable | None = None, *, inline: str = "never") -> Callable:
+def kernel(function: Callable | None = None, *, inline: str = "never", makes_arrays: bool = False) -> Callable:
     """Compile `function` with numba: no Python inside, GIL released, kept on disk, IEEE arithmetic.
 
     `fastmath` stays off: it lets a compiler reorder sums, so that a run would differ between machines.
     Division is numpy's, which raises no error: with Python's, numba would count references in inner loops.
+    A kernel that another kernel calls is compiled for it alone: what a call from Python needs, above all the conversion
+    of many arrays, would take a quarter of the compiler's time. It is compiled for Python, too, once Python calls it.
+    Only a kernel that makes arrays, or returns one, needs to count the references to arrays (`makes_arrays`); counting
+    costs time to compile and, in inner loops, to run. Calls from Python always count, since they take arrays from it.
     What is compiled in one place of a program with many arrays had better be inlined ("always"): by itself, it would be
-    compiled for calls from Python, too, and optimised once more in each function that leads to it.
+    optimised once more in each function that leads to it.
     An argument that is a literal, or a variable set to one, has a type of its own, for which numba compiles a function
     once more; `np.int64(0)` has not.
     With NUMBA_DISABLE_JIT=1 in the environment functions stay plain Python, for a debugger to step through.
     """
     if function is None:
-        return functools.partial(kernel, inline=inline)
+        return functools.partial(kernel, inline=inline, makes_arrays=makes_arrays)
     if numba.config.DISABLE_JIT:
         return function
     options = {"nogil": True, "error_model": "numpy", "inline": inline, "no_cfunc_wrapper": True}
-    compiled = numba.njit(**options)(function)
-    inner = numba.njit(no_cpython_wrapper=True, **options)(function)
+    compiled = numba.njit(_nrt=True, **options)(function)
+    inner = numba.njit(_nrt=makes_arrays, no_cpython_wrapper=True, **options)(function)
     compiled.get_call_template, compiled.get_overload = inner.get_call_template, inner.get_overload
     try:
         compiled._cache = _KernelCache(function)  # as numba's own `cache=True` does with a cache of its own
@@ -88,10 +92,10 @@ class _KernelCache(FunctionCache):
 
     _impl_class = _SourcesInTheName
     fault: str | None = None  # why what is compiled is not kept
-    is_inner = False
+    is_inner = False  # is it for calls from other kernels?
 
     def for_inner(self) -> _KernelCache:
-        """A cache in the same files for the function as other kernels call it."""
+        """The same cache, of the same function as other kernels call it."""
         inner = copy.copy(self)
         inner.is_inner = True
         return inner

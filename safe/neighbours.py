@@ -33,7 +33,7 @@ NEARLY_NOTHING = 1e-150  # an extent below which points count as one: LARGEST di
 # Compiled functions
 
 
-@kernel
+@kernel(makes_arrays=True)
 def grid_over(points: np.ndarray, size: int) -> Grid:
     """A grid over the range of these points, for `size` points in all."""
     low, high = points[0].copy(), points[0].copy()
@@ -60,7 +60,7 @@ def _cell_along(grid: Grid, axis: int, coordinate: float) -> int:
     return int(min(max((coordinate - grid.low[axis]) * grid.scale[axis], 0.0), grid.sides[axis] - 1.0))
 
 
-@kernel
+@kernel(makes_arrays=True)
 def sort_into_cells(
     grid: Grid,
     points: np.ndarray,

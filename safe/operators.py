@@ -98,7 +98,7 @@ def tournament(fitness: np.ndarray, size: int, rng: np.random.Generator) -> int:
     return winner
 
 
-@kernel
+@kernel(makes_arrays=True)
 def judged_tournament(judges: Judges, n: int, size: int, rng: np.random.Generator) -> tuple[int, int]:
     """As `tournament` among n individuals, by the scores that one drawn objective function gives: winner and judge."""
     drawn = np.empty(size, dtype=np.int64)
@@ -152,7 +152,7 @@ def mutate(genome: np.ndarray, low: float, high: float, rng: np.random.Generator
     genome[gene] = draw_uniform(rng, low, high)
 
 
-@kernel
+@kernel(makes_arrays=True)
 def breed(
     genomes: np.ndarray,
     fitness: np.ndarray,
