@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import functools
+import gc
 import glob
 import hashlib
 import os
@@ -135,12 +136,19 @@ def index(n: int) -> int:
 
 @contextmanager
 def while_compiling() -> Iterator[None]:
-    """Show how many functions are compiled inside this context; nothing if all of them come from the disk."""
+    """Show how many functions are compiled inside this context; nothing if all of them come from the disk.
+
+    Meanwhile no garbage is collected: numba keeps most objects that it makes, and a search of them takes long.
+    """
     listener = _CompilationListener()
+    was_collecting = gc.isenabled()
+    gc.disable()
     try:
         with numba.core.event.install_listener("numba:compile", listener):
             yield
     finally:
+        if was_collecting:
+            gc.enable()
         if listener.bar is not None:
             listener.bar.close()
 
