@@ -28,9 +28,10 @@ def kernel(function: Callable | None = None, *, inline: str = "never", makes_arr
     `fastmath` stays off: it lets a compiler reorder sums, so that a run would differ between machines.
     Division is numpy's, which raises no error: with Python's, numba would count references in inner loops.
     A kernel that another kernel calls is compiled for it alone: what a call from Python needs, above all the conversion
-    of many arrays, would take a quarter of the compiler's time. It is compiled for Python, too, once Python calls it.
-    Only a kernel that makes arrays, or returns one, needs to count the references to arrays (`makes_arrays`); counting
-    costs time to compile and, in inner loops, to run. Calls from Python always count, since they take arrays from it.
+    of arrays, would take a seventh of the time. It is compiled for Python, too, once Python calls it.
+    Only a kernel that makes arrays (as the assignment of a row does), or returns one, needs to count the references to
+    arrays (`makes_arrays`); without it, numba says "NRT required" or "Only accept returning of array". Counting costs
+    time to compile and, in inner loops, to run. Calls from Python always count, since they take arrays from it.
     What is compiled in one place of a program with many arrays had better be inlined ("always"): by itself, it would be
     optimised once more in each function that leads to it.
     An argument that is a literal, or a variable set to one, has a type of its own, for which numba compiles a function
