@@ -88,7 +88,7 @@ def walk(maze: MazeArrays, controller: np.ndarray, steps: int) -> tuple[int, int
     return row, column
 
 
-@kernel
+@kernel(makes_arrays=True)
 def rate(points: np.ndarray, archive: Archive, k: int, taxicab: bool, scores: np.ndarray) -> None:
     n = len(points)
     for i in range(n):
@@ -112,7 +112,7 @@ def distance_between(p: np.ndarray, q: np.ndarray, taxicab: bool) -> float:
     return float(abs(down) + abs(right)) if taxicab else np.sqrt(down * down + right * right)
 
 
-@kernel
+@kernel(makes_arrays=True)  # for a moment, to assign a row
 def offer(archive: Archive, point: np.ndarray, score: float) -> None:
     points, scores, entry, counts = archive
     place = counts[0]

@@ -102,7 +102,7 @@ def workload(
 # Compiled functions
 
 
-@kernel
+@kernel(makes_arrays=True)
 def judges_in(run: Recording, g: int, state: State, settings: Settings) -> Judges:
     """The objective functions of a generation."""
     shape = settings.maze.walls.shape

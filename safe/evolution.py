@@ -453,25 +453,34 @@ def advance(
     most: int,
     stop: np.ndarray,
 ) -> bool:
-    """Breed and evaluate the next generations (the first is only evaluated), until the end, at most so many, or until
-    another thread sets `stop`; returns whether another follows."""
+    """Take the steps of the next generations, until the end, at most so many, or until another thread sets `stop`;
+    returns whether another follows."""
     follows = True
     for _ in range(most):
-        if state.number[0] >= 0:
-            breed_both(state, settings, choices, rng)
-        state.number[0] += 1
-        evaluate(state, settings, choices, rng)
-        keep_best(state)
-        if choices is not None and settings.breeding.pool == REPERTOIRE:
-            keep_latest(choices.repertoire, state.genomes, state.endpoints)
-        rate(state, settings, choices, rng)
-        is_last = state.number[0] + 1 >= settings.generations
-        # random search does not stop at a success: its result is the best of all solutions that it may draw
-        has_succeeded = state.best_distance[0] <= settings.success_distance and not settings.searches_at_random
-        follows = not (is_last or has_succeeded)
+        follows = next_generation(state, settings, choices, rng)
         if not follows or stop[0]:
             break
     return follows
+
+
+@kernel
+def next_generation(state: State, settings: Settings, choices: Choices | None, rng: np.random.Generator) -> bool:
+    """Breed the next generation (the first is already there) and evaluate it; returns whether another follows.
+
+    Not part of `advance`, since what Python calls counts references.
+    """
+    if state.number[0] >= 0:
+        breed_both(state, settings, choices, rng)
+    state.number[0] += 1
+    evaluate(state, settings, choices, rng)
+    keep_best(state)
+    if choices is not None and settings.breeding.pool == REPERTOIRE:
+        keep_latest(choices.repertoire, state.genomes, state.endpoints)
+    rate(state, settings, choices, rng)
+    is_last = state.number[0] + 1 >= settings.generations
+    # random search does not stop at a success: its result is the best of all solutions that it may draw
+    has_succeeded = state.best_distance[0] <= settings.success_distance and not settings.searches_at_random
+    return not (is_last or has_succeeded)
 
 
 @kernel(inline="always")

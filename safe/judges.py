@@ -158,7 +158,7 @@ def place_of(judges: Judges, j: int) -> tuple[int, int]:
     return min(row, height - 1), min(column, width - 1)
 
 
-@kernel
+@kernel(makes_arrays=True)
 def favourite(judges: Judges, j: int, n: int) -> int:
     """Of the first n solutions, the one that the j-th objective function scores highest, the first on a tie."""
     found = 0
@@ -178,7 +178,7 @@ def favourite(judges: Judges, j: int, n: int) -> int:
     return found
 
 
-@kernel
+@kernel(makes_arrays=True)
 def best_scores(judges: Judges, fitness: np.ndarray, winners: np.ndarray) -> None:
     """Algorithm 1: the fitness of S_i is max_j O_j(S_i), and the first such O_j is its winner.
 
@@ -222,7 +222,7 @@ def _rule_out_dominated(coefficients: np.ndarray, j: int, exceeds: np.ndarray, c
         can_win[later] &= exceeds[later]
 
 
-@kernel
+@kernel(makes_arrays=True)
 def correlations(judges: Judges, distances: np.ndarray, of_ranks: bool, fitness: np.ndarray) -> None:
     """The correlation of each objective function's scores, or of their ranks, with minus the distance to the goal."""
     n = len(distances)
@@ -261,7 +261,7 @@ def _deviations(values: np.ndarray, of_ranks: bool, deviations: np.ndarray) -> f
     return math.sqrt(squares)
 
 
-@kernel
+@kernel(makes_arrays=True)
 def highest_scores(judges: Judges, sign: int, fitness: np.ndarray) -> None:
     """Of each objective function, the highest score that it gives, times a sign."""
     scores = np.empty(judges.components.shape[1])
@@ -273,7 +273,7 @@ def highest_scores(judges: Judges, sign: int, fitness: np.ndarray) -> None:
         fitness[j] = sign * highest
 
 
-@kernel
+@kernel(makes_arrays=True)
 def credit(found: np.ndarray, chosen_by: np.ndarray, parents: np.ndarray, fitness: np.ndarray) -> None:
     """Rate objective functions by the cells that the solutions they have chosen found, from generation to generation.
 
@@ -297,7 +297,7 @@ def shuffle(values: np.ndarray, rng: np.random.Generator) -> None:
         values[last], values[drawn] = values[drawn], values[last]
 
 
-@kernel
+@kernel(makes_arrays=True)
 def wait(judges: Judges, idle: np.ndarray, fitness: np.ndarray) -> None:
     """Keep the highest score that each goal has given since it was drawn, and for how many generations it is so."""
     highest = np.empty(len(fitness))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import functools
+import gc
 import glob
 import hashlib
 import os
@@ -20,24 +22,33 @@ from tqdm import tqdm
 _PACKAGE = Path(__file__).parent
 
 
-def kernel(function: Callable | None = None, *, inline: str = "never") -> Callable:
+def kernel(function: Callable | None = None, *, inline: str = "never", makes_arrays: bool = False) -> Callable:
     """Compile `function` with numba: no Python inside, GIL released, kept on disk, IEEE arithmetic.
 
     `fastmath` stays off: it lets a compiler reorder sums, so that a run would differ between machines.
     Division is numpy's, which raises no error: with Python's, numba would count references in inner loops.
+    A kernel that another kernel calls is compiled for it alone: what a call from Python needs, above all the conversion
+    of arrays, would take a seventh of the time. It is compiled for Python, too, once Python calls it.
+    Only a kernel that makes arrays (as the assignment of a row does), or returns one, needs to count the references to
+    arrays (`makes_arrays`); without it, numba says "NRT required" or "Only accept returning of array". Counting costs
+    time to compile and, in inner loops, to run. Calls from Python always count, since they take arrays from it.
     What is compiled in one place of a program with many arrays had better be inlined ("always"): by itself, it would be
-    compiled for calls from Python, too, and optimised once more in each function that leads to it.
+    optimised once more in each function that leads to it.
     An argument that is a literal, or a variable set to one, has a type of its own, for which numba compiles a function
     once more; `np.int64(0)` has not.
     With NUMBA_DISABLE_JIT=1 in the environment functions stay plain Python, for a debugger to step through.
     """
     if function is None:
-        return functools.partial(kernel, inline=inline)
+        return functools.partial(kernel, inline=inline, makes_arrays=makes_arrays)
     if numba.config.DISABLE_JIT:
         return function
-    compiled = numba.njit(nogil=True, error_model="numpy", inline=inline)(function)
+    options = {"nogil": True, "error_model": "numpy", "inline": inline, "no_cfunc_wrapper": True}
+    compiled = numba.njit(_nrt=True, **options)(function)
+    inner = numba.njit(_nrt=makes_arrays, no_cpython_wrapper=True, **options)(function)
+    compiled.get_call_template, compiled.get_overload = inner.get_call_template, inner.get_overload
     try:
         compiled._cache = _KernelCache(function)  # as numba's own `cache=True` does with a cache of its own
+        inner._cache = compiled._cache.for_inner()
     except RuntimeError:  # no folder for it is writable
         _KernelCache.fault = "no folder is writable for its cache"
     return compiled
@@ -83,6 +94,16 @@ class _KernelCache(FunctionCache):
 
     _impl_class = _SourcesInTheName
     fault: str | None = None  # why what is compiled is not kept
+    is_inner = False  # is it for calls from other kernels?
+
+    def for_inner(self) -> _KernelCache:
+        """The same cache, of the same function as other kernels call it."""
+        inner = copy.copy(self)
+        inner.is_inner = True
+        return inner
+
+    def _index_key(self, *arguments: object) -> tuple:
+        return *super()._index_key(*arguments), self.is_inner
 
     def load_overload(self, *arguments: object) -> object:
         try:
@@ -116,12 +137,19 @@ def index(n: int) -> int:
 
 @contextmanager
 def while_compiling() -> Iterator[None]:
-    """Show how many functions are compiled inside this context; nothing if all of them come from the disk."""
+    """Show how many functions are compiled inside this context; nothing if all of them come from the disk.
+
+    Meanwhile no garbage is collected: numba keeps most objects that it makes, and a search of them takes long.
+    """
     listener = _CompilationListener()
+    was_collecting = gc.isenabled()
+    gc.disable()
     try:
         with numba.core.event.install_listener("numba:compile", listener):
             yield
     finally:
+        if was_collecting:
+            gc.enable()
         if listener.bar is not None:
             listener.bar.close()
 

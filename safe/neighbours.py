@@ -34,7 +34,7 @@ NEARLY_NOTHING = 1e-150  # an extent below which points count as one: LARGEST di
 # Compiled functions
 
 
-@kernel
+@kernel(makes_arrays=True)
 def grid_over(points: np.ndarray, size: int) -> Grid:
     """A grid over the range of these points, for `size` points in all."""
     rows, columns = 1 + int(math.sqrt(size / PER_CELL / ASPECT)), 1 + int(math.sqrt(size / PER_CELL * ASPECT))
@@ -67,7 +67,7 @@ def _cell_of(grid: Grid, x: float, y: float) -> int:
     return _cell_along(grid, 0, x) * grid.sides[1] + _cell_along(grid, 1, y)
 
 
-@kernel
+@kernel(makes_arrays=True)
 def sort_into_cells(
     grid: Grid,
     points: np.ndarray,

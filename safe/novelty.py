@@ -298,7 +298,7 @@ def _sum_over_rings(row: int, column: int, occupancy: np.ndarray, wanted: int) -
     return total if found >= wanted else -1
 
 
-@kernel
+@kernel(makes_arrays=True)
 def _sum_over_all(
     row: int, column: int, occupancy: np.ndarray, cells: np.ndarray, archived: np.ndarray, size: int, wanted: int
 ) -> int:
@@ -318,7 +318,7 @@ def _sum_over_all(
     return total
 
 
-@kernel
+@kernel(makes_arrays=True)
 def score_points(points: np.ndarray, archive: ArchiveArrays, k: int, taxicab: bool, scores: np.ndarray) -> None:
     """Score points in order, offering each to the archive."""
     n, dimensions = points.shape

@@ -98,7 +98,7 @@ def tournament(fitness: np.ndarray, size: int, rng: np.random.Generator) -> int:
     return winner
 
 
-@kernel
+@kernel(makes_arrays=True)
 def judged_tournament(judges: Judges, n: int, size: int, rng: np.random.Generator) -> tuple[int, int]:
     """As `tournament` among n individuals, by the scores that one drawn objective function gives: winner and judge."""
     drawn = np.empty(size, dtype=np.int64)
@@ -152,7 +152,7 @@ def mutate(genome: np.ndarray, low: float, high: float, rng: np.random.Generator
     genome[gene] = draw_uniform(rng, low, high)
 
 
-@kernel
+@kernel(makes_arrays=True)
 def breed(
     genomes: np.ndarray,
     fitness: np.ndarray,
@@ -167,7 +167,7 @@ def breed(
     Only choices beyond the paper need the `judges` and the `repertoire`; by the paper's rules they are None.
     """
     bred, parents, chosen_by, is_copy = offspring
-    is_elite = np.zeros(len(genomes), dtype=np.bool_)
+    is_elite = np.zeros(len(genomes), dtype=np.int64)  # as elsewhere: numba compiles np.zeros for each type
     scores = np.empty(len(genomes)) if rates.judging != BEST_SCORE else fitness
     for place in range(rates.elites):
         if judges is not None and rates.judging != BEST_SCORE:
@@ -176,7 +176,7 @@ def breed(
         for i in range(len(genomes)):
             if not is_elite[i] and (fittest < 0 or scores[i] > scores[fittest]):
                 fittest = i
-        is_elite[fittest] = True
+        is_elite[fittest] = 1
         _copy(genomes, fittest, bred, place)
         parents[place], chosen_by[place], is_copy[place] = fittest, -1, True
     for place in range(rates.elites, len(genomes), 2):

@@ -7,12 +7,14 @@ import importlib.util
 import inspect
 import os
 import pkgutil
+import re
 import shutil
 import subprocess
 import sys
 import types
 
 import numba
+import numpy as np
 import pytest
 
 import safe
@@ -52,6 +54,37 @@ def test_a_kernel_uses_only_numpy_math_numbers_named_tuples_and_other_kernels(ke
         is_library = isinstance(value, types.ModuleType) and value.__name__ in ("numpy", "math", "numba")
         is_record = isinstance(value, type) and issubclass(value, tuple)
         assert is_library or is_record or is_kernel(value) or isinstance(value, int | float), name
+
+
+@pytest.mark.parametrize("kernel", KERNELS.values(), ids=KERNELS)
+def test_a_kernel_that_does_not_count_references_returns_only_numbers(kernel):
+    numbers = {"None", "int", "float", "bool"}
+    returned = re.findall(r"\w+", kernel.py_func.__annotations__["return"].removeprefix("tuple"))
+    counts = kernel.get_overload.__self__.targetoptions["_nrt"]
+    assert counts or set(returned) <= numbers
+
+
+def test_a_kernel_keeps_none_of_its_arguments():
+    rng, genomes = np.random.Generator(np.random.SFC64(1)), np.zeros((2, 3))
+    before = sys.getrefcount(rng), sys.getrefcount(genomes)
+    safe.operators.draw_genomes(rng, 0.0, 1.0, genomes)
+    assert (sys.getrefcount(rng), sys.getrefcount(genomes)) == before
+
+
+def test_a_kernel_is_compiled_for_python_only_if_python_calls_it():
+    @safe.kernel.kernel
+    def low(x):
+        return x + 1
+
+    @safe.kernel.kernel
+    def up(x):
+        return 2 * low(x)
+
+    assert up(1) == 4
+    assert len(up.signatures) == 1
+    assert low.signatures == []
+    assert low(1) == 2
+    assert len(low.signatures) == 1
 
 
 def test_without_compiling_a_run_is_the_same():
