@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import gc
 import importlib
 import json
 import os
@@ -23,7 +24,14 @@ from jupyter_client.provisioning import KernelProvisionerFactory, LocalProvision
 
 from isolated import ROOT
 
-IMPORTED = ("ipykernel.kernelapp", "safe.companion.ledger", "safe.companion.notebook", "safe.playground.widget")
+IMPORTED = (
+    "ipykernel.kernelapp",
+    "matplotlib.backends.backend_pdf",  # with all that fits fonts into files
+    "matplotlib.backends.backend_svg",
+    "safe.companion.ledger",
+    "safe.companion.notebook",
+    "safe.playground.widget",
+)
 COMPILE_CHOICES = """
 import sys
 sys.path.insert(0, sys.argv[1])
@@ -117,12 +125,14 @@ def serve() -> None:
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # or else kernels that have ended would seem to live
     sys.path[0] = str(ROOT)  # where `safe` is, if this is not the checkout that is installed
     os.environ["MPLBACKEND"] = BACKEND
+    sys.modules["debugpy"] = None  # a kernel would import it, which takes longer than all else, and nobody debugs
     for name in IMPORTED:
         importlib.import_module(name)
     for line in sys.stdin:
         # they are on the disk by then: to compile would start threads, which no fork has
         for with_choices in (False, True):
             importlib.import_module("safe.evolution").compile_kernels(with_choices)
+        gc.freeze()  # no kernel looks for garbage among what it was forked with
         number = os.fork()
         if number == 0:
             become_kernel(**json.loads(line))
