@@ -13,9 +13,11 @@ POINTS = 72  # an inch
 
 def image_box(figure: Figure) -> Bbox:
     """The part of a figure, in inches, to which its image is cut; what is in it then keeps its place."""
-    figure.draw_without_rendering()
-    with plt.rc_context({"figure.constrained_layout.use": False}):
-        figure.set_layout_engine(None)  # one may place panels of a fixed aspect elsewhere whenever the figure is drawn
+    if engine := figure.get_layout_engine():
+        for _ in range(2):  # for panels of a fixed aspect once is not enough
+            engine.execute(figure)
+        with plt.rc_context({"figure.constrained_layout.use": False}):
+            figure.set_layout_engine(None)
     return figure.get_tightbbox().padded(plt.rcParams["savefig.pad_inches"])
 
 
