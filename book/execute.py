@@ -45,16 +45,16 @@ def execute(notebook: Path, parameters: dict[str, object]) -> None:
     departures = {name: value for name, value in own.items() if repr(value) != declared[name]["default"]}
     made_from = stamp(notebook, own)  # what changes from now on makes the copy stale
     unfinished = unfinished_copy(notebook)
-    papermill.execute_notebook(
+    executed = papermill.execute_notebook(
         notebook,
         unfinished,
         departures,  # papermill then adds no cell that only repeats the notebook's own values
+        request_save_on_cell_execute=False,  # but at the end: twice for each cell takes as long as all else here
         progress_bar=False,
         stderr_file=sys.stderr if sys.stderr.isatty() else None,
         store_widget_state=False,  # it would hold all of the playground's scripts
         extra_arguments=["--log-level=CRITICAL"],  # of the kernel: it warns of TCP, and of being shut down
     )
-    executed = nbformat.read(unfinished, as_version=4)
     check_outputs(executed)
     for cell in executed.cells:
         if cell.cell_type == "code":
@@ -72,8 +72,8 @@ def complaint_of(notebook: Path, parameters: dict[str, object]) -> str | None:
         complaint = f"{error.ename}: {error.evalue}"
     except ValueError as error:
         complaint = str(error)
-    except Exception as error:  # none may be lost in its thread
-        complaint = f"{type(error).__name__}: {error}"
+    except Exception as error:  # none may be lost in its thread; there is no copy yet
+        return f"{type(error).__name__}: {error}"
     else:
         return None
     return f"{complaint} (in full in {unfinished_copy(notebook)})"
