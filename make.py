@@ -18,6 +18,8 @@ IS_WINDOWS = os.name == "nt"
 ENVIRONMENT = Path(".venv")
 PIP = ("python", "-m", "pip", "install", "--quiet", "--quiet", "--disable-pip-version-check")
 FIXED = ("--constraint", "constraints.txt")
+EXECUTE = ("python", "book/execute.py")
+VERIFY = ("python", "book/verify.py")
 BUILD = ("python", "book/build.py")
 UNCHANGED = ("python", "book/unchanged.py")
 COMPILE = ("python", "-c", "from safe.evolution import compile_kernels as run; run(), run(with_choices=True)")
@@ -51,15 +53,16 @@ def env():
 def execute():
     """execute the notebooks that are stale, with RUNS runs of each experiment (500)"""
     env()
-    _run("python", "book/execute.py")
+    _run(*EXECUTE)
+    _run(*VERIFY)
 
 
 def book():
     """everything from nothing: environment, every notebook, the book (RUNS=20 for a class)"""
     env()
     if _end(_start(*UNCHANGED)):
-        execute()
-        _run(*BUILD)
+        _run(*EXECUTE)
+        _check(_end(_start(*BUILD), _start(*VERIFY)))  # Sphinx leaves a core idle most of the time
         _run(*UNCHANGED, "--made")
     print("The book: _build/html/index.html", flush=True)
 

@@ -22,15 +22,11 @@ from pathlib import Path
 import nbformat
 import papermill
 
-import safe
 from executed import EXECUTED, NOTEBOOKS, ROOT, STAMP, notebooks, requested_parameters, stamp, what_is_wrong
 from forked import fork_jupyters_kernels
 from isolated import isolated
-from safe.companion import evidence, peers
-from safe.companion.project import STORE
 from safe.experiments.cores import available_cores
 
-SAMPLE = 5  # runs in it that are repeated at the end
 FIRST = "ledger"  # makes all runs that several notebooks show
 MUST_SHOW = {  # by a key in the metadata of a cell: what it stands for, and the output that shows it
     "table": ("table", "text/csv"),
@@ -129,23 +125,6 @@ def main() -> None:
     with isolated():
         fork_jupyters_kernels()
         _execute_all(chosen, parameters, bool(given))
-    store = ROOT / (given.get("store") or STORE)
-    if not options.names and store.exists():
-        try:
-            same = safe.verify(store, SAMPLE)
-        except safe.StoreError as error:
-            sys.exit(f"the stored results cannot be trusted: {error}")
-        others = sum(same.sources != "same")
-        said = f", although {others} of them were made from other or unknown sources of the science" if others else ""
-        print(f"{len(same)} stored runs, drawn at random, were repeated and gave the same results{said}", flush=True)
-    if not options.names:
-        try:
-            runs, traces = evidence.verify()
-            runs += peers.verify()
-        except ValueError as error:
-            sys.exit(f"the recorded evidence cannot be trusted: {error}")
-        said = f"{runs} recorded run{'s' * (runs != 1)} and {traces} recorded trace{'s' * (traces != 1)}"
-        print(f"{said}, drawn at random, were repeated and gave the same results", flush=True)
 
 
 def _execute_all(chosen: list[Path], parameters: dict[str, object], always: bool) -> None:

@@ -109,6 +109,7 @@ def test_a_book_that_is_unchanged_is_not_made_again(project):
         ("book/unchanged.py",),
         ("book/execute.py",),
         ("book/build.py",),
+        ("book/verify.py",),
         ("book/unchanged.py", "--made"),
     ]
     project.started.clear()
