@@ -1,4 +1,4 @@
-"""Sphinx writes pages on all cores, and reads them on one, since not all extensions can merge what several have read."""
+"""Sphinx writes pages on all cores, and reads them on one: not all extensions can merge what several have read."""
 
 from __future__ import annotations
 

@@ -152,7 +152,8 @@ def _execute_all(chosen: list[Path], parameters: dict[str, object], always: bool
     stale.sort(key=lambda notebook: (notebook.stem == FIRST, notebook.stat().st_size), reverse=True)
     waits = {notebook: notebook.stem != FIRST and "store" in papermill.inspect_notebook(notebook) for notebook in stale}
     # threads of such a pool end with this program, and so do kernels: nothing outlives a failure or an interruption
-    with contextlib.chdir(ROOT), ThreadPool(available_cores()) as pool:
+    # one more than cores, since a kernel that begins or ends leaves its core idle
+    with contextlib.chdir(ROOT), ThreadPool(available_cores() + 1) as pool:
         for group in (False, True):
             for notebook, seconds, complaint in pool.imap_unordered(timed, [n for n in stale if waits[n] == group]):
                 if complaint is not None:
