@@ -232,12 +232,16 @@ def _create():
         found = ".".join(map(str, sys.version_info[:3]))
         another = "py -3.12 make.py ..." if IS_WINDOWS else "make PYTHON=python3.12 ..."
         sys.exit("Python 3.11 or later is needed; this is %s. Use another: %s" % (found, another))  # noqa: UP031
-    has_uv = Path(_program("uv")).exists()
-    bare = ["--without-pip"] if has_uv else []  # to add pip takes longer than uv to install everything
-    _check(_end(subprocess.Popen([sys.executable, "-m", "venv", *bare, str(ENVIRONMENT)])))
-    # without uv the newest pip, since older ones take minutes to resolve what constraints.txt has fixed
-    if not has_uv and _end(_start(*PIP, "--only-binary", ":all:", "uv")):
-        _run(*PIP, "--upgrade", "pip")
+    venv = [sys.executable, "-m", "venv", str(ENVIRONMENT)]
+    _check(_end(subprocess.Popen([*venv, "--without-pip"])))  # to add pip takes longer than uv to install everything
+    if not Path(_program("uv")).exists():
+        uv = (*PIP[3:], "--only-binary", ":all:", "uv")
+        own_pip = [sys.executable, "-m", "pip", "--python", _program("python")]
+        if _end(subprocess.Popen([*own_pip, *uv], stderr=subprocess.DEVNULL)):  # missing, or too old
+            _check(_end(subprocess.Popen(venv)))
+            # without uv the newest pip, since older ones take minutes to resolve what constraints.txt has fixed
+            if _end(_start(*PIP[:3], *uv)):
+                _run(*PIP, "--upgrade", "pip")
     (ENVIRONMENT / "created").touch()
 
 

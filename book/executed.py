@@ -9,19 +9,23 @@ the build if a copy is missing or stale.
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import json
 import os
 import platform
 from importlib import metadata
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
-from sphinx.util.typing import ExtensionMetadata
 
 from isolated import ROOT
 from safe.companion.project import MEASUREMENTS
+
+if TYPE_CHECKING:  # those who execute notebooks need not wait for the rest of Sphinx
+    from sphinx.application import Sphinx
+    from sphinx.util.typing import ExtensionMetadata
 
 NOTEBOOKS = ROOT / "notebooks"
 EXECUTED = ROOT / "executed"
@@ -60,9 +64,14 @@ def stamp(notebook: Path, parameters: dict[str, object]) -> dict[str, object]:
         "notebook": hashlib.sha256(notebook.read_bytes()).hexdigest(),
         "package": package.hexdigest(),
         "measurements": hashlib.sha256((ROOT / MEASUREMENTS).read_bytes()).hexdigest(),
-        "packages": {"python": platform.python_version()} | {name: metadata.version(name) for name in DEPENDENCIES},
+        "packages": _packages(),
         "parameters": parameters,
     }
+
+
+@functools.cache
+def _packages() -> dict[str, str]:
+    return {"python": platform.python_version()} | {name: metadata.version(name) for name in DEPENDENCIES}
 
 
 def what_is_wrong(notebook: Path, requested: dict[str, object]) -> str | None:
