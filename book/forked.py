@@ -93,23 +93,20 @@ class _Process:
 
 
 @functools.cache
-def _server() -> subprocess.Popen:
-    """The process to fork, which ends with this one, as its standard input does."""
-    from safe.evolution import compile_kernels
-
+def _processes() -> tuple[subprocess.Popen, subprocess.Popen]:
+    """The process to fork, which ends with this one, as its standard input does, and one that compiles meanwhile."""
+    compiling = subprocess.Popen([sys.executable, "-c", COMPILE_CHOICES, str(ROOT)])
     server = subprocess.Popen(
         [sys.executable, __file__], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8"
     )
-    more = subprocess.Popen([sys.executable, "-c", COMPILE_CHOICES, str(ROOT)])  # on another core
-    compile_kernels()  # where people see how far it is; meanwhile the server imports
-    more.wait()
-    return server
+    return server, compiling
 
 
 def _ask(order: dict[str, object]) -> int:
     """Have a kernel started; gives the number of its process."""
     with _ordering:
-        server = _server()
+        server, compiling = _processes()
+        order["with_choices"] = compiling.poll() is not None  # what needs no choices need not wait for them
         with contextlib.suppress(BrokenPipeError):
             server.stdin.write(json.dumps(order) + "\n")
             server.stdin.flush()
@@ -125,17 +122,20 @@ def serve() -> None:
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # or else kernels that have ended would seem to live
     sys.path[0] = str(ROOT)  # where `safe` is, if this is not the checkout that is installed
     os.environ["MPLBACKEND"] = BACKEND
+    os.environ["TQDM_DISABLE"] = "1"  # a bar has a thread, which no fork has; the process that compiles shows one
     sys.modules["debugpy"] = None  # a kernel would import it, which takes longer than all else, and nobody debugs
     for name in IMPORTED:
         importlib.import_module(name)
+    compile_kernels = importlib.import_module("safe.evolution").compile_kernels
+    compile_kernels()  # those of them that are not on the disk yet
     for line in sys.stdin:
-        # they are on the disk by then: to compile would start threads, which no fork has
-        for with_choices in (False, True):
-            importlib.import_module("safe.evolution").compile_kernels(with_choices)
+        order = json.loads(line)
+        if order.pop("with_choices"):
+            compile_kernels(with_choices=True)
         gc.freeze()  # no kernel looks for garbage among what it was forked with
         number = os.fork()
         if number == 0:
-            become_kernel(**json.loads(line))
+            become_kernel(**order)
             return
         print(number, flush=True)
 
