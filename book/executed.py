@@ -9,7 +9,6 @@ the build if a copy is missing or stale.
 
 from __future__ import annotations
 
-import functools
 import hashlib
 import json
 import os
@@ -64,14 +63,9 @@ def stamp(notebook: Path, parameters: dict[str, object]) -> dict[str, object]:
         "notebook": hashlib.sha256(notebook.read_bytes()).hexdigest(),
         "package": package.hexdigest(),
         "measurements": hashlib.sha256((ROOT / MEASUREMENTS).read_bytes()).hexdigest(),
-        "packages": _packages(),
+        "packages": {"python": platform.python_version()} | {name: metadata.version(name) for name in DEPENDENCIES},
         "parameters": parameters,
     }
-
-
-@functools.cache
-def _packages() -> dict[str, str]:
-    return {"python": platform.python_version()} | {name: metadata.version(name) for name in DEPENDENCIES}
 
 
 def what_is_wrong(notebook: Path, requested: dict[str, object]) -> str | None:
