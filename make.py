@@ -18,6 +18,8 @@ IS_WINDOWS = os.name == "nt"
 ENVIRONMENT = Path(".venv")
 PIP = ("python", "-m", "pip", "install", "--quiet", "--quiet", "--disable-pip-version-check")
 FIXED = ("--constraint", "constraints.txt")
+EXECUTE = ("python", "book/execute.py")
+VERIFY = ("python", "book/verify.py")
 BUILD = ("python", "book/build.py")
 UNCHANGED = ("python", "book/unchanged.py")
 COMPILE = ("python", "-c", "from safe.evolution import compile_kernels as run; run(), run(with_choices=True)")
@@ -51,15 +53,16 @@ def env():
 def execute():
     """execute the notebooks that are stale, with RUNS runs of each experiment (500)"""
     env()
-    _run("python", "book/execute.py")
+    _run(*EXECUTE)
+    _run(*VERIFY)
 
 
 def book():
     """everything from nothing: environment, every notebook, the book (RUNS=20 for a class)"""
     env()
     if _end(_start(*UNCHANGED)):
-        execute()
-        _run(*BUILD)
+        _run(*EXECUTE)
+        _check(_end(_start(*BUILD), _start(*VERIFY)))  # Sphinx leaves a core idle most of the time
         _run(*UNCHANGED, "--made")
     print("The book: _build/html/index.html", flush=True)
 
@@ -229,12 +232,16 @@ def _create():
         found = ".".join(map(str, sys.version_info[:3]))
         another = "py -3.12 make.py ..." if IS_WINDOWS else "make PYTHON=python3.12 ..."
         sys.exit("Python 3.11 or later is needed; this is %s. Use another: %s" % (found, another))  # noqa: UP031
-    has_uv = Path(_program("uv")).exists()
-    bare = ["--without-pip"] if has_uv else []  # to add pip takes longer than uv to install everything
-    _check(_end(subprocess.Popen([sys.executable, "-m", "venv", *bare, str(ENVIRONMENT)])))
-    # without uv the newest pip, since older ones take minutes to resolve what constraints.txt has fixed
-    if not has_uv and _end(_start(*PIP, "--only-binary", ":all:", "uv")):
-        _run(*PIP, "--upgrade", "pip")
+    venv = [sys.executable, "-m", "venv", str(ENVIRONMENT)]
+    _check(_end(subprocess.Popen([*venv, "--without-pip"])))  # to add pip takes longer than uv to install everything
+    if not Path(_program("uv")).exists():
+        uv = (*PIP[3:], "--only-binary", ":all:", "uv")
+        own_pip = [sys.executable, "-m", "pip", "--python", _program("python")]
+        if _end(subprocess.Popen([*own_pip, *uv], stderr=subprocess.DEVNULL)):  # missing, or too old
+            _check(_end(subprocess.Popen(venv)))
+            # without uv the newest pip, since older ones take minutes to resolve what constraints.txt has fixed
+            if _end(_start(*PIP[:3], *uv)):
+                _run(*PIP, "--upgrade", "pip")
     (ENVIRONMENT / "created").touch()
 
 

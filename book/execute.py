@@ -22,15 +22,11 @@ from pathlib import Path
 import nbformat
 import papermill
 
-import safe
 from executed import EXECUTED, NOTEBOOKS, ROOT, STAMP, notebooks, requested_parameters, stamp, what_is_wrong
 from forked import fork_jupyters_kernels
 from isolated import isolated
-from safe.companion import evidence, peers
-from safe.companion.project import STORE
 from safe.experiments.cores import available_cores
 
-SAMPLE = 5  # runs in it that are repeated at the end
 FIRST = "ledger"  # makes all runs that several notebooks show
 MUST_SHOW = {  # by a key in the metadata of a cell: what it stands for, and the output that shows it
     "table": ("table", "text/csv"),
@@ -45,16 +41,16 @@ def execute(notebook: Path, parameters: dict[str, object]) -> None:
     departures = {name: value for name, value in own.items() if repr(value) != declared[name]["default"]}
     made_from = stamp(notebook, own)  # what changes from now on makes the copy stale
     unfinished = unfinished_copy(notebook)
-    papermill.execute_notebook(
+    executed = papermill.execute_notebook(
         notebook,
         unfinished,
         departures,  # papermill then adds no cell that only repeats the notebook's own values
+        request_save_on_cell_execute=False,  # but at the end: twice for each cell takes as long as all else here
         progress_bar=False,
         stderr_file=sys.stderr if sys.stderr.isatty() else None,
         store_widget_state=False,  # it would hold all of the playground's scripts
         extra_arguments=["--log-level=CRITICAL"],  # of the kernel: it warns of TCP, and of being shut down
     )
-    executed = nbformat.read(unfinished, as_version=4)
     check_outputs(executed)
     for cell in executed.cells:
         if cell.cell_type == "code":
@@ -72,8 +68,8 @@ def complaint_of(notebook: Path, parameters: dict[str, object]) -> str | None:
         complaint = f"{error.ename}: {error.evalue}"
     except ValueError as error:
         complaint = str(error)
-    except Exception as error:  # none may be lost in its thread
-        complaint = f"{type(error).__name__}: {error}"
+    except Exception as error:  # none may be lost in its thread; there is no copy yet
+        return f"{type(error).__name__}: {error}"
     else:
         return None
     return f"{complaint} (in full in {unfinished_copy(notebook)})"
@@ -129,23 +125,6 @@ def main() -> None:
     with isolated():
         fork_jupyters_kernels()
         _execute_all(chosen, parameters, bool(given))
-    store = ROOT / (given.get("store") or STORE)
-    if not options.names and store.exists():
-        try:
-            same = safe.verify(store, SAMPLE)
-        except safe.StoreError as error:
-            sys.exit(f"the stored results cannot be trusted: {error}")
-        others = sum(same.sources != "same")
-        said = f", although {others} of them were made from other or unknown sources of the science" if others else ""
-        print(f"{len(same)} stored runs, drawn at random, were repeated and gave the same results{said}", flush=True)
-    if not options.names:
-        try:
-            runs, traces = evidence.verify()
-            runs += peers.verify()
-        except ValueError as error:
-            sys.exit(f"the recorded evidence cannot be trusted: {error}")
-        said = f"{runs} recorded run{'s' * (runs != 1)} and {traces} recorded trace{'s' * (traces != 1)}"
-        print(f"{said}, drawn at random, were repeated and gave the same results", flush=True)
 
 
 def _execute_all(chosen: list[Path], parameters: dict[str, object], always: bool) -> None:
@@ -173,7 +152,8 @@ def _execute_all(chosen: list[Path], parameters: dict[str, object], always: bool
     stale.sort(key=lambda notebook: (notebook.stem == FIRST, notebook.stat().st_size), reverse=True)
     waits = {notebook: notebook.stem != FIRST and "store" in papermill.inspect_notebook(notebook) for notebook in stale}
     # threads of such a pool end with this program, and so do kernels: nothing outlives a failure or an interruption
-    with contextlib.chdir(ROOT), ThreadPool(available_cores()) as pool:
+    # one more than cores, since a kernel that begins or ends leaves its core idle
+    with contextlib.chdir(ROOT), ThreadPool(available_cores() + 1) as pool:
         for group in (False, True):
             for notebook, seconds, complaint in pool.imap_unordered(timed, [n for n in stale if waits[n] == group]):
                 if complaint is not None:

@@ -15,13 +15,16 @@ import os
 import platform
 from importlib import metadata
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
-from sphinx.util.typing import ExtensionMetadata
 
 from isolated import ROOT
 from safe.companion.project import MEASUREMENTS
+
+if TYPE_CHECKING:  # those who execute notebooks need not wait for the rest of Sphinx
+    from sphinx.application import Sphinx
+    from sphinx.util.typing import ExtensionMetadata
 
 NOTEBOOKS = ROOT / "notebooks"
 EXECUTED = ROOT / "executed"

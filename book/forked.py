@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import gc
 import importlib
 import json
 import os
@@ -23,12 +24,19 @@ from jupyter_client.provisioning import KernelProvisionerFactory, LocalProvision
 
 from isolated import ROOT
 
-IMPORTED = ("ipykernel.kernelapp", "safe.companion.ledger", "safe.companion.notebook", "safe.playground.widget")
-COMPILE_CHOICES = """
+IMPORTED = (
+    "ipykernel.kernelapp",
+    "matplotlib.backends.backend_pdf",  # with all that fits fonts into files
+    "matplotlib.backends.backend_svg",
+    "safe.companion.ledger",
+    "safe.companion.notebook",
+    "safe.playground.widget",
+)
+COMPILE = """
 import sys
 sys.path.insert(0, sys.argv[1])
 from safe.evolution import compile_kernels
-compile_kernels(with_choices=True)
+compile_kernels(with_choices=sys.argv[2] == "True")
 """
 _ordering = threading.Lock()  # notebooks are executed side by side
 BACKEND = "module://matplotlib_inline.backend_inline"  # a kernel would name it before matplotlib is imported
@@ -85,23 +93,30 @@ class _Process:
 
 
 @functools.cache
-def _server() -> subprocess.Popen:
-    """The process to fork, which ends with this one, as its standard input does."""
-    from safe.evolution import compile_kernels
+def _processes() -> tuple[subprocess.Popen, subprocess.Popen]:
+    """The process to fork, which ends with this one, as its standard input does, and one that compiles meanwhile.
 
+    Two processes work at any time. Kernels with choices come last, since they use the others.
+    """
+    of_paper = _compile(with_choices=False)
     server = subprocess.Popen(
         [sys.executable, __file__], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8"
     )
-    more = subprocess.Popen([sys.executable, "-c", COMPILE_CHOICES, str(ROOT)])  # on another core
-    compile_kernels()  # where people see how far it is; meanwhile the server imports
-    more.wait()
-    return server
+    server.stdout.readline()  # it has imported all it needs
+    with_choices = _compile(with_choices=True)
+    of_paper.wait()
+    return server, with_choices
+
+
+def _compile(with_choices: bool) -> subprocess.Popen:
+    return subprocess.Popen([sys.executable, "-c", COMPILE, str(ROOT), str(with_choices)])
 
 
 def _ask(order: dict[str, object]) -> int:
     """Have a kernel started; gives the number of its process."""
     with _ordering:
-        server = _server()
+        server, with_choices = _processes()
+        order["with_choices"] = with_choices.poll() is not None  # what needs no choices need not wait for them
         with contextlib.suppress(BrokenPipeError):
             server.stdin.write(json.dumps(order) + "\n")
             server.stdin.flush()
@@ -117,15 +132,19 @@ def serve() -> None:
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # or else kernels that have ended would seem to live
     sys.path[0] = str(ROOT)  # where `safe` is, if this is not the checkout that is installed
     os.environ["MPLBACKEND"] = BACKEND
+    sys.modules["debugpy"] = None  # a kernel would import it, which takes longer than all else, and nobody debugs
     for name in IMPORTED:
         importlib.import_module(name)
+    print("imported", flush=True)
     for line in sys.stdin:
+        order = json.loads(line)
         # they are on the disk by then: to compile would start threads, which no fork has
-        for with_choices in (False, True):
+        for with_choices in {False, order.pop("with_choices")}:
             importlib.import_module("safe.evolution").compile_kernels(with_choices)
+        gc.freeze()  # no kernel looks for garbage among what it was forked with
         number = os.fork()
         if number == 0:
-            become_kernel(**json.loads(line))
+            become_kernel(**order)
             return
         print(number, flush=True)
 

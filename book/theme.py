@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import html
 import re
+from collections.abc import Callable
 
 from sphinx.application import Sphinx
 from sphinx.util.typing import ExtensionMetadata
@@ -68,6 +69,25 @@ def _add_filter(app: Sphinx, pagename: str, templatename: str, context: dict, do
     context["without_drawn_icons"] = lambda text: re.sub(r"<script[^>]*/fontawesome/[^>]*></script>", "", text)
 
 
+def _share_contents() -> Callable[..., None]:
+    """Compute the table of contents only once for all pages of the same depth that do not stand in it, as sources."""
+    made = {}
+
+    def share(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
+        compute, depth = context["toctree"], pagename.count("/")
+
+        def contents(**settings: object) -> str:
+            key = depth, *sorted(settings.items())
+            if key not in made:
+                made[key] = compute(**settings)
+            return made[key]
+
+        if doctree is None:
+            context["toctree"] = contents
+
+    return share
+
+
 def _wrap_code(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
     """Let lines of code, where they are long, continue below themselves, indented (see `book.css`)."""
 
@@ -94,6 +114,7 @@ def setup(app: Sphinx) -> ExtensionMetadata:
     app.connect("html-page-context", _remove_mathjax, priority=900)
     app.connect("html-page-context", _add_projector, priority=502)  # after the theme's first buttons
     app.connect("html-page-context", _remove_address, priority=900)
+    app.connect("html-page-context", _share_contents(), priority=100)  # before the theme fills its sidebar
     app.connect("html-page-context", _add_filter)
     app.connect("html-page-context", _wrap_code)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

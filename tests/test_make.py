@@ -89,7 +89,7 @@ def test_uv_on_the_path_is_used_in_an_environment_without_pip(project, monkeypat
         make.subprocess, "Popen", lambda command: made.append(command) or SimpleNamespace(poll=lambda: 0, returncode=0)
     )
     make.env()
-    assert made == [[sys.executable, "-m", "venv", "--without-pip", ".venv"]]
+    assert made == [[sys.executable, "-m", "venv", ".venv", "--without-pip"]]
     assert [command[:3] for command in project.started] == [("uv", "pip", "install")]
     assert make._program("uv") == str(elsewhere)
     project.failing = ("uv",)
@@ -102,6 +102,24 @@ def test_uv_on_the_path_is_used_in_an_environment_without_pip(project, monkeypat
     ]
 
 
+@pytest.mark.parametrize("has_pip", [True, False], ids=["pip", "no pip"])
+def test_uv_is_installed_by_the_pip_of_this_python_or_else_by_one_of_the_environment(project, monkeypatch, has_pip):
+    (project.path / ".venv" / "created").unlink()
+    (project.path / make._program("uv")).unlink()
+    called = []
+
+    def popen(command, **_):
+        called.append(command[2])
+        code = int(command[2] == "pip" and not has_pip)
+        return SimpleNamespace(poll=lambda: code, returncode=code)
+
+    monkeypatch.setattr(make.subprocess, "Popen", popen)
+    make._create()
+    assert called == (["venv", "pip"] if has_pip else ["venv", "pip", "venv"])
+    by_environment = [("python", "-m", "pip", "install", "uv")]
+    assert [(*command[:4], command[-1]) for command in project.started] == ([] if has_pip else by_environment)
+
+
 def test_a_book_that_is_unchanged_is_not_made_again(project):
     project.failing = (make.UNCHANGED,)
     make.book()
@@ -109,6 +127,7 @@ def test_a_book_that_is_unchanged_is_not_made_again(project):
         ("book/unchanged.py",),
         ("book/execute.py",),
         ("book/build.py",),
+        ("book/verify.py",),
         ("book/unchanged.py", "--made"),
     ]
     project.started.clear()

@@ -8,7 +8,7 @@ papermill, and the notebook's folder in Jupyter.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 
@@ -16,6 +16,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from IPython import get_ipython
+from IPython.core.pylabtools import print_figure
 from IPython.display import display
 from matplotlib.artist import Artist
 from matplotlib.figure import Figure
@@ -23,6 +24,8 @@ from matplotlib.figure import Figure
 from safe import checks
 from safe.companion import project
 from safe.results import figures
+
+IMAGES = {"image/svg+xml": "svg", "application/pdf": "pdf"}  # for pages, and for print
 
 
 def prepare() -> None:
@@ -36,16 +39,20 @@ def prepare() -> None:
     pd.set_option("display.max_colwidth", None)
     shell = get_ipython()
     if shell is not None:
-        formatter = shell.display_formatter.mimebundle_formatter
-        formatter.for_type(pd.DataFrame, lambda table, **_: {"text/csv": table.to_csv(lineterminator="\n")})
-        formatter = shell.display_formatter.formatters["image/svg+xml"]
-        draw = formatter.lookup_by_type(Figure)
-        formatter.for_type(Figure, lambda figure: _with_layout(figure, draw))
+        bundle = shell.display_formatter.mimebundle_formatter
+        bundle.for_type(pd.DataFrame, lambda table, **_: {"text/csv": table.to_csv(lineterminator="\n")})
+        bundle.for_type(Figure, lambda figure, **_: _images(figure))
+        for kind in IMAGES:
+            shell.display_formatter.formatters[kind].pop(Figure)  # they would take precedence
+        if "inline" in plt.get_backend():
+            plt.uninstall_repl_displayhook()  # which draws each figure before it is shown, for windows on a screen
 
 
-def _with_layout(figure: Figure, draw: Callable[[Figure], str]) -> tuple[str, dict]:
-    layout = figures.layout(figure)  # before it is drawn, since it fixes where everything is
-    return draw(figure), {"layout": layout}
+def _images(figure: Figure) -> tuple[dict[str, str], dict[str, dict]]:
+    """A figure in both formats, drawn once for each, since matplotlib need not find out where everything is."""
+    image = figures.image_box(figure)
+    metadata = {"image/svg+xml": {"layout": figures.layout(figure, image)}}
+    return {kind: print_figure(figure, name, image, base64=True) for kind, name in IMAGES.items()}, metadata
 
 
 def show_table(table: pd.DataFrame, links: Sequence[Sequence[tuple[str, str]]], heading: str = "replay") -> None:

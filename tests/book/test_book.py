@@ -415,13 +415,12 @@ def test_runs_made_from_other_sources_are_counted(checkout, book_of, monkeypatch
     experiment = safe.Experiment("novelty", "maze1", runs=3, parameters=safe.Parameters(generations=2))
     safe.run(experiment, tmp_path / "s.sqlite", progress=False)
     repeated = safe.verify(tmp_path / "s.sqlite", progress=False).assign(sources=sources)
-    execute = book_of(checkout, "execute")
-    monkeypatch.setattr("sys.argv", ["book/execute.py", "-p", "store", str(tmp_path / "s.sqlite")])
-    monkeypatch.setattr(execute, "_execute_all", lambda *_: None)
-    monkeypatch.setattr(execute.safe, "verify", lambda *_: repeated)
-    monkeypatch.setattr(execute.evidence, "verify", lambda: (5, 1))
-    monkeypatch.setattr(execute.peers, "verify", lambda: 2)
-    execute.main()
+    verify = book_of(checkout, "verify")
+    monkeypatch.setattr("sys.argv", ["book/verify.py", str(tmp_path / "s.sqlite")])
+    monkeypatch.setattr(verify.safe, "verify", lambda *_, **__: repeated)
+    monkeypatch.setattr(verify.evidence, "verify", lambda: (5, 1))
+    monkeypatch.setattr(verify.peers, "verify", lambda: 2)
+    verify.main()
     line, recorded = capsys.readouterr().out.splitlines()
     assert line == f"3 stored runs, drawn at random, were repeated and gave the same results{said}"
     assert recorded == "7 recorded runs and 1 recorded trace, drawn at random, were repeated and gave the same results"
@@ -431,13 +430,12 @@ def test_evidence_that_is_not_reproduced_stops_the_build(checkout, book_of, monk
     def refuse():
         raise ValueError("record must hold what its experiments make")
 
-    execute = book_of(checkout, "execute")
-    monkeypatch.setattr("sys.argv", ["book/execute.py"])
-    monkeypatch.setattr(execute, "_execute_all", lambda *_: None)
-    monkeypatch.setattr(execute.safe, "verify", lambda *_: pd.DataFrame({"sources": []}))
-    monkeypatch.setattr(execute.evidence, "verify", refuse)
+    verify = book_of(checkout, "verify")
+    monkeypatch.setattr("sys.argv", ["book/verify.py"])
+    monkeypatch.setattr(verify.safe, "verify", lambda *_, **__: pd.DataFrame({"sources": []}))
+    monkeypatch.setattr(verify.evidence, "verify", refuse)
     with pytest.raises(SystemExit, match="the recorded evidence cannot be trusted: record must hold what its"):
-        execute.main()
+        verify.main()
 
 
 @pytest.mark.usefixtures("alone_in_checkout")

@@ -54,8 +54,8 @@ def test_notebooks_that_keep_runs_wait_for_the_one_that_makes_what_they_share(ex
 @pytest.mark.parametrize(
     ("failure", "complaint"),
     [
-        (ValueError("cell 7 must show a table; got none"), "cell 7 must show a table; got none"),
-        (papermill.PapermillExecutionError(0, 1, "", "KeyError", "'p17'", []), "KeyError: 'p17'"),
+        (ValueError("cell 7 must show a table; got none"), "cell 7 must show a table; got none (in full in {copy})"),
+        (papermill.PapermillExecutionError(0, 1, "", "KeyError", "'p17'", []), "KeyError: 'p17' (in full in {copy})"),
         (RuntimeError("the process has ended"), "RuntimeError: the process has ended"),
     ],
 )
@@ -71,5 +71,5 @@ def test_a_failure_ends_the_others(execute, monkeypatch, failure, complaint):
     with pytest.raises(SystemExit) as ended:
         execute_all(execute)
     copy = Path(execute.EXECUTED, ".ledger.ipynb")
-    assert ended.value.code == f"[5/5] ledger: {complaint} (in full in {copy})"
+    assert ended.value.code == "[5/5] ledger: " + complaint.format(copy=copy)
     assert not {"coefficients", "fixed-weights"} & {*begun}

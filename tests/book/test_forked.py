@@ -13,7 +13,10 @@ NOTICED = """
 import json, os, signal, sys
 import matplotlib.pyplot as plt
 import numpy as np
-OWN = "JPY_PARENT_PID", "JUPYTER_PATH", "JUPYTER_CONFIG_DIR", "IPYTHONDIR"  # folders made for each
+OWN = {
+    "JPY_PARENT_PID", "JUPYTER_PATH", "JUPYTER_CONFIG_DIR", "IPYTHONDIR",  # of each
+    "PYDEVD_USE_FRAME_EVAL",  # of the debugger, which forked kernels do without
+}
 print(json.dumps({
     "path": sys.path,
     "flags": str(sys.flags),

@@ -100,7 +100,7 @@ def test_a_figure_says_where_its_panels_are_in_the_image_that_is_shown(shell):
     shown, metadata = shell.display_formatter.format(figure)
     width, height = map(float, re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', shown["image/svg+xml"]).groups())
     layout = metadata["image/svg+xml"]["layout"]
-    assert layout["size"] == pytest.approx([width, height], abs=1)
+    assert layout["size"] == pytest.approx([width, height], abs=0.1)
     assert len(layout["panels"]) == 2
     plt.close(figure)
 

@@ -30,7 +30,7 @@ def make(folder):
             shutil.copytree(ROOT / part, folder / part)
         else:
             shutil.copy(ROOT / part, folder)
-    for made in (execute(folder), build(folder)):
+    for made in (execute(folder), _call(folder, sys.executable, "book/verify.py"), build(folder)):
         assert made.returncode == 0, output_of(made)
 
 

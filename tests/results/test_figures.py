@@ -444,7 +444,7 @@ def boxes_of(figure):
     """Left, top, right and bottom of every box of the panels of a figure, in fractions of its image."""
     return [
         [(left, top, left + width, top + height) for left, top, width, height in boxes]
-        for boxes in figures.layout(figure)["panels"]
+        for boxes in figures.layout(figure, figures.image_box(figure))["panels"]
     ]
 
 
@@ -488,11 +488,12 @@ def test_every_entry_of_the_legend_has_a_box_with_its_handle():
     for name in ("one", "another"):
         axes.plot([1, 2], label=name)
     legend_below(figure)
-    layout = figures.layout(figure)
+    image = figures.image_box(figure)
+    layout = figures.layout(figure, image)
     (_, _, width, _), (_, _, wider, _) = layout["entries"]
     assert 0 < width < wider
     for text, (left, top, width, height) in zip(figure.legends[0].get_texts(), layout["entries"], strict=True):
-        box = figures.fractions(figure, figures.image_box(figure), text.get_window_extent())
+        box = figures.fractions(figure, image, text.get_window_extent())
         assert left < box[0]
         assert left + width >= box[0] + box[2]
         assert top <= box[1] <= box[1] + box[3] <= top + height

@@ -13,8 +13,11 @@ POINTS = 72  # an inch
 
 def image_box(figure: Figure) -> Bbox:
     """The part of a figure, in inches, to which its image is cut; what is in it then keeps its place."""
-    figure.draw_without_rendering()
-    figure.set_layout_engine("none")  # which may place panels of a fixed aspect elsewhere whenever it is drawn
+    if engine := figure.get_layout_engine():
+        for _ in range(2):  # for panels of a fixed aspect once is not enough
+            engine.execute(figure)
+        with plt.rc_context({"figure.constrained_layout.use": False}):
+            figure.set_layout_engine(None)
     return figure.get_tightbbox().padded(plt.rcParams["savefig.pad_inches"])
 
 
@@ -25,8 +28,14 @@ def fractions(figure: Figure, image: Bbox, box: Bbox) -> list[float]:
     return [round(float(part), 4) for part in (left, top, box.width / image.width, box.height / image.height)]
 
 
-def layout(figure: Figure) -> dict[str, list]:
+def layout(figure: Figure, image: Bbox) -> dict[str, list]:
     """Where the panels of a figure and the entries of its legend are.
+
+    Parameters
+    ----------
+    figure : Figure
+    image : Bbox
+        The part of it that is shown (see `image_box`).
 
     Returns
     -------
@@ -36,7 +45,6 @@ def layout(figure: Figure) -> dict[str, list]:
         axis stand at another one alone, and panels that overlap count as one. `entries`: a box for each entry of the
         legend.
     """
-    image = image_box(figure)
     bars = {bar.ax for axes in figure.axes for bar in _colour_bars(axes)}
     drawn = [axes for axes in figure.axes if axes not in bars and (axes.axison or axes.has_data())]
     panels: list[list[Bbox]] = []
