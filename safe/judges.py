@@ -191,12 +191,12 @@ def best_scores(judges: Judges, fitness: np.ndarray, winners: np.ndarray) -> Non
     for j in range(weighted_sums):
         for gene in range(genes):
             coefficients[gene, j] = judges.objectives[j, gene]
-    can_win, exceeds = np.ones(m, dtype=np.int64), np.empty(m, dtype=np.int64)
+    is_dominated, exceeds = np.zeros(m, dtype=np.int64), np.empty(m, dtype=np.int64)
     scores = np.empty(n)
     for i in range(n):
         fitness[i] = -np.inf
     for j in range(m):
-        if not can_win[j]:
+        if is_dominated[j]:
             continue
         score_all(judges, j, scores)
         for i in range(n):  # selects, not branches, for the same reason
@@ -204,12 +204,12 @@ def best_scores(judges: Judges, fitness: np.ndarray, winners: np.ndarray) -> Non
             fitness[i] = scores[i] if is_better else fitness[i]
             winners[i] = j if is_better else winners[i]
         if j < weighted_sums:
-            _rule_out_dominated(coefficients, j, exceeds, can_win)
+            _mark_dominated(coefficients, j, exceeds, is_dominated)
 
 
-@kernel(inline="always")
-def _rule_out_dominated(coefficients: np.ndarray, j: int, exceeds: np.ndarray, can_win: np.ndarray) -> None:
-    """Of the weighted sums behind the j-th, only those with a coefficient above its own can still win."""
+@kernel
+def _mark_dominated(coefficients: np.ndarray, j: int, exceeds: np.ndarray, is_dominated: np.ndarray) -> None:
+    """Mark those weighted sums behind the j-th that have no coefficient above its own; `exceeds` is working memory."""
     genes, weighted_sums = coefficients.shape
     start, end = index(j + 1), index(weighted_sums)
     for later in range(start, end):
@@ -219,7 +219,7 @@ def _rule_out_dominated(coefficients: np.ndarray, j: int, exceeds: np.ndarray, c
         for later in range(start, end):
             exceeds[later] |= coefficients[gene, later] > coefficient
     for later in range(start, end):
-        can_win[later] &= exceeds[later]
+        is_dominated[later] |= 1 - exceeds[later]
 
 
 @kernel(makes_arrays=True)

@@ -16,16 +16,39 @@ import numpy as np
 from safe.kernel import index, kernel
 
 
+class Axis(NamedTuple):
+    """Intervals along one coordinate; what lies outside belongs to the outermost."""
+
+    low: float  # where the first begins
+    scale: float  # intervals in a unit of length
+    count: int
+
+
 class Grid(NamedTuple):
-    """Rows and columns of cells over the first two coordinates; points outside belong to the outermost cells."""
+    """Cells over the first two coordinates."""
 
-    low: tuple[float, float]  # where the first cells begin
-    scale: tuple[float, float]  # cells in a unit of length
-    sides: tuple[int, int]  # rows and columns
+    rows: Axis
+    columns: Axis
 
 
-PER_CELL = 2.0  # points in a cell, on average
-ASPECT = 4.0  # of a cell, its height to its width: a search begins few rows, and measures little beyond its reach
+class Members(NamedTuple):
+    """Points in the cells of a grid, to be searched: a population and an archive, and what entered it since."""
+
+    points: np.ndarray  # float64, (dimensions, room), at least two: points on a line get a second coordinate
+    ends: np.ndarray  # int64: a 0, then the end of each cell in `points`; one more helps to count
+    places: np.ndarray  # int64, (capacity,): of the archive's points in `points`
+
+
+class Nearest(NamedTuple):
+    """What a search finds, with room for all members and four more."""
+
+    distances: np.ndarray  # float64, in any order; Euclidean ones are squared
+    ascending: np.ndarray  # float64, the smallest of them, in order
+    smaller: np.ndarray  # int64, working memory
+
+
+PER_CELL = 3.0  # points in a cell, on average
+ASPECT = 10.0  # of a cell, its height to its width: a search begins few rows, and measures little beyond its reach
 SLACK = 1.35  # a first search expects this many times the neighbours wanted, so that it rarely finds too few
 MANY = 1000  # from here on, or from three times those wanted, a heap orders values faster than comparing all pairs
 NEARLY_NOTHING = 1e-150  # an extent below which points count as one: LARGEST divided by it is still finite
@@ -34,58 +57,46 @@ NEARLY_NOTHING = 1e-150  # an extent below which points count as one: LARGEST di
 # Compiled functions
 
 
-@kernel(makes_arrays=True)
+@kernel
 def grid_over(points: np.ndarray, size: int) -> Grid:
     """A grid over the range of these points, for `size` points in all."""
     rows, columns = 1 + int(math.sqrt(size / PER_CELL / ASPECT)), 1 + int(math.sqrt(size / PER_CELL * ASPECT))
     if points.shape[1] == 1:
-        low, scale, cells = _axis(points[:, 0], columns)
-        return Grid((low, 0.0), (scale, 0.0), (cells, 1))
-    first, second = _axis(points[:, 0], rows), _axis(points[:, 1], columns)
-    return Grid((first[0], second[0]), (first[1], second[1]), (first[2], second[2]))
+        return Grid(_axis_over(points[:, 0], columns), Axis(0.0, 0.0, np.int64(1)))
+    return Grid(_axis_over(points[:, 0], rows), _axis_over(points[:, 1], columns))
 
 
 @kernel
-def _axis(coordinates: np.ndarray, cells: int) -> tuple[float, float, int]:
-    """Start, scale and number of cells of one axis of a grid."""
+def _axis_over(coordinates: np.ndarray, count: int) -> Axis:
     low = high = coordinates[0]
     for coordinate in coordinates:
         low, high = min(low, coordinate), max(high, coordinate)
     extent = high - low
-    return (low, cells / extent, cells) if extent > NEARLY_NOTHING else (low, 0.0, 1)
+    return Axis(low, count / extent, count) if extent > NEARLY_NOTHING else Axis(low, 0.0, np.int64(1))
 
 
 @kernel
-def _cell_along(grid: Grid, axis: int, coordinate: float) -> int:
-    """The row (axis 0) or column (axis 1) in which a coordinate lies."""
-    return int(min(max((coordinate - grid.low[axis]) * grid.scale[axis], 0.0), grid.sides[axis] - 1.0))
-
-
-@kernel
-def _cell_of(grid: Grid, x: float, y: float) -> int:
-    """The number of the cell in which a point lies, row by row."""
-    return _cell_along(grid, 0, x) * grid.sides[1] + _cell_along(grid, 1, y)
+def _interval(axis: Axis, coordinate: float) -> int:
+    """The number of the interval in which a coordinate lies."""
+    return int(min(max((coordinate - axis.low) * axis.scale, 0.0), axis.count - 1.0))
 
 
 @kernel(makes_arrays=True)
 def sort_into_cells(
-    grid: Grid,
-    points: np.ndarray,
-    archived_points: np.ndarray,
-    archived_size: int,
-    members: np.ndarray,
-    ends: np.ndarray,
-    places: np.ndarray,
+    grid: Grid, points: np.ndarray, archived_points: np.ndarray, archived_size: int, members: Members
 ) -> int:
-    """Fill `members`, `ends` and `places` of `score_points`; returns the number of members."""
+    """Make points and archive the members; returns their number."""
+    sorted_points, ends, places = members
     n, dimensions = points.shape
     size = n + archived_size
+    rows, columns = grid
     second = min(1, dimensions - 1)  # on a line all points lie in one column, whatever their coordinate
     cells = np.empty(size, dtype=np.int64)
     for j in range(n):
-        cells[j] = _cell_of(grid, points[j, 0], points[j, second])
+        cells[j] = _interval(rows, points[j, 0]) * columns.count + _interval(columns, points[j, second])
     for j in range(archived_size):
-        cells[n + j] = _cell_of(grid, archived_points[0, j], archived_points[second, j])
+        row, column = _interval(rows, archived_points[0, j]), _interval(columns, archived_points[second, j])
+        cells[n + j] = row * columns.count + column
     for cell in range(len(ends)):
         ends[cell] = 0
     for j in range(size):  # not in the loops above, so that the processor computes several cells at once
@@ -98,9 +109,9 @@ def sort_into_cells(
         ends[cell] += 1
     for axis in range(dimensions):
         for j in range(n):
-            members[axis, index(cells[j])] = points[j, axis]
+            sorted_points[axis, index(cells[j])] = points[j, axis]
         for j in range(archived_size):
-            members[axis, index(cells[n + j])] = archived_points[axis, j]
+            sorted_points[axis, index(cells[n + j])] = archived_points[axis, j]
     for j in range(archived_size):
         places[j] = cells[n + j]
     return size
@@ -109,18 +120,19 @@ def sort_into_cells(
 @kernel
 def even_reach(grid: Grid, share: float) -> float:
     """The distance within which this share of all points, and some more, would lie if they were spread evenly."""
-    height = grid.sides[0] / grid.scale[0] if grid.scale[0] > 0 else 0.0
-    width = grid.sides[1] / grid.scale[1] if grid.scale[1] > 0 else 0.0
+    rows, columns = grid
+    height = rows.count / rows.scale if rows.scale > 0 else 0.0
+    width = columns.count / columns.scale if columns.scale > 0 else 0.0
     # in the plane the area of a circle; on a line its length
     return max(math.sqrt(SLACK * share * height * width / math.pi), SLACK * share * max(height, width) / 2)
 
 
 @kernel(inline="always")
 def look_around(
-    point: np.ndarray,
+    points: np.ndarray,
+    i: int,
     grid: Grid,
-    members: np.ndarray,
-    ends: np.ndarray,
+    members: Members,
     in_cells: int,
     size: int,
     wanted: int,
@@ -128,45 +140,35 @@ def look_around(
     taxicab: bool,
     distances: np.ndarray,
 ) -> int:
-    """Put the distances of members to the point into `distances`, at least the `wanted` smallest; returns how many."""
-    rows, columns = grid.sides
+    """Put the distances of members to the i-th of some points into `distances`, at least the `wanted` smallest.
+
+    The first `in_cells` members lie in cells, the others up to `size` anywhere. Returns how many distances there are.
+    """
+    rows, columns = grid
+    x, y = points[i, 0], points[i, 1] if points.shape[1] > 1 else 0.0
     while True:
         margin = reach * (1 + 1e-9)  # the borders of cells are rounded, and no cell may be missed
-        top, bottom = _cell_along(grid, 0, point[0] - margin), _cell_along(grid, 0, point[0] + margin)
-        left, right = _cell_along(grid, 1, point[1] - margin), _cell_along(grid, 1, point[1] + margin)
-        is_all = (bottom - top + 1) * (right - left + 1) == rows * columns
+        top, bottom = _interval(rows, x - margin), _interval(rows, x + margin)
+        left, right = _interval(columns, y - margin), _interval(columns, y + margin)
+        is_all = (bottom - top + 1) * (right - left + 1) == rows.count * columns.count
         limit = np.inf if is_all else _along_axis(reach, taxicab)
         found = np.int64(0)
-        for row in range(top - 1, bottom + 1):  # first the newcomers, then row by row
+        for row in range(top - 1, bottom + 1):  # first those that lie anywhere, then row by row
             start, end = in_cells, size
             if row >= top:
-                start, end = ends[index(row * columns + left)], ends[index(row * columns + right + 1)]
-            found = _measure(point, members, start, end, taxicab, limit, distances, found)
+                first = row * columns.count
+                start, end = members.ends[index(first + left)], members.ends[index(first + right + 1)]
+            for j in range(index(start), index(end)):
+                distance = _along_axis(members.points[0, j] - x, taxicab) + _along_axis(
+                    members.points[1, j] - y, taxicab
+                )
+                for axis in range(2, points.shape[1]):
+                    distance += _along_axis(members.points[axis, j] - points[i, axis], taxicab)
+                distances[index(found)] = distance  # no branch: the processor would often mispredict it
+                found += distance <= limit
         if is_all or found >= wanted:
             return found
         reach *= max(1.25, math.sqrt(wanted / (found + 1)))
-
-
-@kernel(inline="always")
-def _measure(
-    point: np.ndarray,
-    members: np.ndarray,
-    start: int,
-    end: int,
-    taxicab: bool,
-    limit: float,
-    distances: np.ndarray,
-    found: int,
-) -> int:
-    """Append the distances of members[:, start:end] to the point up to the limit; returns how many there are now."""
-    x, y = point[0], point[1]
-    for j in range(index(start), index(end)):
-        distance = _along_axis(members[0, j] - x, taxicab) + _along_axis(members[1, j] - y, taxicab)
-        for axis in range(2, len(point)):
-            distance += _along_axis(members[axis, j] - point[axis], taxicab)
-        distances[index(found)] = distance  # no branch: the processor would often mispredict it
-        found += distance <= limit
-    return found
 
 
 @kernel
@@ -197,6 +199,7 @@ def smallest(values: np.ndarray, size: int, wanted: int, ascending: np.ndarray, 
         values[j] = np.inf
     for j in range(padded):
         smaller[j] = 0
+    for j in range(wanted):
         ascending[j] = -1.0
     for i in range(0, padded, 4):  # four at once, so that counts are loaded and stored only a fourth as often
         one, two = values[index(i)], values[index(i + 1)]
@@ -204,9 +207,7 @@ def smallest(values: np.ndarray, size: int, wanted: int, ascending: np.ndarray, 
         for j in range(padded):
             value = values[j]
             smaller[j] += (one < value) + (two < value) + (three < value) + (four < value)
-    for j in range(
-        padded
-    ):  # the number of smaller values is a value's place: no branch for the processor to mispredict
+    for j in range(padded):  # its place is the number of smaller values: no branch for the processor to mispredict
         ascending[index(smaller[j])] = values[j]
     for j in range(1, wanted):  # equal values went to the same place
         ascending[j] = max(ascending[j], ascending[j - 1])

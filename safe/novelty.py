@@ -42,7 +42,7 @@ import numpy as np
 
 from safe import checks
 from safe.kernel import index, kernel
-from safe.neighbours import even_reach, grid_over, look_around, smallest, sort_into_cells
+from safe.neighbours import Grid, Members, Nearest, even_reach, grid_over, look_around, smallest, sort_into_cells
 
 METRICS = ("taxicab", "euclidean")
 K = 15
@@ -324,44 +324,59 @@ def score_points(points: np.ndarray, archive: ArchiveArrays, k: int, taxicab: bo
     n, dimensions = points.shape
     if n == 0:
         return
-    counts, capacity = archive.counts, len(archive.scores)
-    grid = grid_over(points, n + counts[0])
-    most_members = n + min(capacity, counts[0] + n)
+    size, capacity = archive.counts[0], len(archive.scores)
+    grid = grid_over(points, n + size)
+    most_members = n + min(capacity, size + n)
     most_newcomers = 1 + int(math.sqrt(most_members))
-    # population and archive, cell by cell; then those that entered the archive since, in any order
-    members = np.zeros((max(dimensions, 2), most_members + most_newcomers))  # points on a line get a second coordinate
-    # a 0, then the end of each cell in `members`; one more helps to count
-    ends = np.empty(grid.sides[0] * grid.sides[1] + 2, dtype=np.int64)
-    places = np.empty(capacity, dtype=np.int64)  # of the archive's points in `members`
-    size = in_cells = sort_into_cells(grid, points, archive.points, counts[0], members, ends, places)
+    room = most_members + most_newcomers
+    members = Members(
+        np.zeros((max(dimensions, 2), room)),
+        np.empty(grid.rows.count * grid.columns.count + 2, dtype=np.int64),
+        np.empty(capacity, dtype=np.int64),
+    )
+    nearest = Nearest(np.empty(room + 4), np.empty(room + 4), np.empty(room + 4, dtype=np.int64))
+    _score_among(points, archive, k, taxicab, grid, members, most_newcomers, nearest, scores)
+
+
+@kernel
+def _score_among(
+    points: np.ndarray,
+    archive: ArchiveArrays,
+    k: int,
+    taxicab: bool,
+    grid: Grid,
+    members: Members,
+    most_newcomers: int,
+    nearest: Nearest,
+    scores: np.ndarray,
+) -> None:
+    """The same in the arrays that `score_points` makes: to count references to them would take time."""
+    n, dimensions = points.shape
+    counts = archive.counts
+    size = in_cells = sort_into_cells(grid, points, archive.points, counts[0], members)
     reach = even_reach(grid, (k + 1) / size)
-    room = members.shape[1] + 4  # for `smallest`
-    distances, ascending, smaller = np.empty(room), np.empty(room), np.empty(room, dtype=np.int64)
-    point = np.zeros(len(members))
     threshold = threshold_of(archive)
     for i in range(n):
-        for axis in range(dimensions):
-            point[axis] = points[i, axis]
         # the point also finds itself, at a distance of 0, which adds nothing to the sum
         wanted = min(k, n - 1 + counts[0]) + 1
-        found = look_around(point, grid, members, ends, in_cells, size, wanted, reach, taxicab, distances)
-        smallest(distances, found, wanted, ascending, smaller)
+        found = look_around(points, i, grid, members, in_cells, size, wanted, reach, taxicab, nearest.distances)
+        smallest(nearest.distances, found, wanted, nearest.ascending, nearest.smaller)
         total = 0.0
         for j in range(wanted):
-            total += ascending[j] if taxicab else math.sqrt(ascending[j])
+            total += nearest.ascending[j] if taxicab else math.sqrt(nearest.ascending[j])
         scores[i] = total / k
         if scores[i] > threshold:
             place = vacate(archive)
             if place < counts[0]:
-                members[0, places[place]] = np.nan  # near to nothing
+                members.points[0, members.places[place]] = np.nan  # near to nothing
             enter(archive, place, scores[i])
             threshold = threshold_of(archive)
-            places[place] = size
+            members.places[place] = size
             for axis in range(dimensions):
-                archive.points[axis, place] = members[axis, size] = points[i, axis]
+                archive.points[axis, place] = members.points[axis, size] = points[i, axis]
             size += 1
             if size - in_cells == most_newcomers:
-                size = in_cells = sort_into_cells(grid, points, archive.points, counts[0], members, ends, places)
+                size = in_cells = sort_into_cells(grid, points, archive.points, counts[0], members)
 
 
 @kernel

@@ -179,6 +179,21 @@ def breed(
         is_elite[fittest] = 1
         _copy(genomes, fittest, bred, place)
         parents[place], chosen_by[place], is_copy[place] = fittest, -1, True
+    _breed_pairs(genomes, fitness, judges, repertoire, rates, rng, offspring)
+
+
+@kernel
+def _breed_pairs(
+    genomes: np.ndarray,
+    fitness: np.ndarray,
+    judges: Judges | None,
+    repertoire: Repertoire | None,
+    rates: Breeding,
+    rng: np.random.Generator,
+    offspring: Offspring,
+) -> None:
+    """The pairs behind the elites. Not part of `breed`, which makes arrays, so that no references are counted here."""
+    bred, parents, chosen_by, is_copy = offspring
     for place in range(rates.elites, len(genomes), 2):
         for child in range(place, place + 2):
             source, judge = genomes, -1
