@@ -7,7 +7,6 @@
 import { InputError, shown } from "./checks.js";
 
 const POOL = 4; // words of 32 bits
-const TWO_TO_32 = 4294967296;
 
 /** A stream of uniform numbers.
  *
@@ -23,28 +22,31 @@ export class Sfc64 {
   /** A uniform number in [0, 1). */
   random() {
     const words = this.words;
-    const bLow = words[2], bHigh = words[3];
-    const cLow = words[4], cHigh = words[5];
+    const aLow = words[0], bLow = words[2], cLow = words[4], counter = words[6];
+    const bHigh = words[3], cHigh = words[5];
     // output = a + b + counter
-    const lowSum = words[0] + bLow + words[6];
-    const low = lowSum >>> 0;
-    const high = (words[1] + bHigh + words[7] + (lowSum - low) / TWO_TO_32) >>> 0;
+    const sum = (aLow + bLow) | 0, low = (sum + counter) | 0;
+    const high = (words[1] + bHigh + words[7] + carry(aLow, bLow, sum) + carry(sum, counter, low)) | 0;
     words[6]++;
     if (words[6] === 0) words[7]++;
     // a = b ^ (b >> 11)
     words[0] = bLow ^ ((bLow >>> 11) | (bHigh << 21));
     words[1] = bHigh ^ (bHigh >>> 11);
     // b = c + (c << 3)
-    const shiftedLow = (cLow << 3) >>> 0;
-    const bSum = cLow + shiftedLow;
-    words[2] = bSum;
-    words[3] = cHigh + (((cHigh << 3) | (cLow >>> 29)) >>> 0) + (bSum >= TWO_TO_32 ? 1 : 0);
+    const shifted = cLow << 3, b = (cLow + shifted) | 0;
+    words[2] = b;
+    words[3] = cHigh + ((cHigh << 3) | (cLow >>> 29)) + carry(cLow, shifted, b);
     // c = (c rotated by 24) + output
-    const cSum = (((cLow << 24) | (cHigh >>> 8)) >>> 0) + low;
-    words[4] = cSum;
-    words[5] = (((cHigh << 24) | (cLow >>> 8)) >>> 0) + high + (cSum >= TWO_TO_32 ? 1 : 0);
-    return (high * 2097152 + (low >>> 11)) / 9007199254740992; // the upper 53 bits, over 2 ** 53
+    const rotated = (cLow << 24) | (cHigh >>> 8), c = (rotated + low) | 0;
+    words[4] = c;
+    words[5] = ((cHigh << 24) | (cLow >>> 8)) + high + carry(rotated, low, c);
+    return ((high >>> 0) * 2097152 + (low >>> 11)) / 9007199254740992; // the upper 53 bits, over 2 ** 53
   }
+}
+
+/** 1 if the sum of two words of 32 bits, of which the lower 32 bits are given, has a 33rd bit, or else 0. */
+function carry(x, y, sum) {
+  return ((x & y) | ((x | y) & ~sum)) >>> 31;
 }
 
 /** The first words of 32 bits that numpy's SeedSequence gives for a seed. */
