@@ -31,20 +31,16 @@ def _set_buttons(app: Sphinx, config) -> None:
         options["launch_buttons"] = LAUNCH
 
 
-def _remove_thebe(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
-    """Remove the scripts with which Jupyter Book would load thebe from a CDN; no page uses it."""
+def _remove_scripts(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
+    """Remove thebe, which Jupyter Book would load from a CDN, and from pages without mathematics MathJax, which is large."""
+    has_mathematics = 'class="math' in context.get("body", "")
 
-    def is_thebe(script) -> bool:
-        return "THEBE_JS_URL" in (script.attributes.get("body") or "") or "sphinx-thebe" in (script.filename or "")
+    def is_needed(script) -> bool:
+        name = script.filename or ""
+        is_thebe = "sphinx-thebe" in name or "THEBE_JS_URL" in (script.attributes.get("body") or "")
+        return not is_thebe and (has_mathematics or "mathjax" not in name)
 
-    context["script_files"] = [script for script in context.get("script_files", []) if not is_thebe(script)]
-
-
-def _remove_mathjax(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
-    """Remove MathJax, which is large, from pages without mathematics: Jupyter Book gives every page every script."""
-    if 'class="math' not in context.get("body", ""):
-        scripts = context.get("script_files", [])
-        context["script_files"] = [script for script in scripts if "mathjax" not in (script.filename or "")]
+    context["script_files"] = [script for script in context.get("script_files", []) if is_needed(script)]
 
 
 def _add_projector(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
@@ -110,8 +106,7 @@ def _wrap_code(app: Sphinx, pagename: str, templatename: str, context: dict, doc
 
 def setup(app: Sphinx) -> ExtensionMetadata:
     app.connect("config-inited", _set_buttons)
-    app.connect("html-page-context", _remove_thebe, priority=900)
-    app.connect("html-page-context", _remove_mathjax, priority=900)
+    app.connect("html-page-context", _remove_scripts, priority=900)
     app.connect("html-page-context", _add_projector, priority=502)  # after the theme's first buttons
     app.connect("html-page-context", _remove_address, priority=900)
     app.connect("html-page-context", _share_contents(), priority=100)  # before the theme fills its sidebar

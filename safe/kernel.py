@@ -30,8 +30,8 @@ def kernel(function: Callable | None = None, *, inline: str = "never", makes_arr
     A kernel that another kernel calls is compiled for it alone: what a call from Python needs, above all the conversion
     of arrays, would take a seventh of the time. It is compiled for Python, too, once Python calls it.
     Only a kernel that makes arrays (as the assignment of a row does), or returns one, needs to count the references to
-    arrays (`makes_arrays`); without it, numba says "NRT required" or "Only accept returning of array". Counting costs
-    time to compile and, in inner loops, to run. Calls from Python always count, since they take arrays from it.
+    arrays (`makes_arrays`). Counting costs time to compile and, in inner loops, to run. Calls from Python always count,
+    since they take arrays from it.
     What is compiled in one place of a program with many arrays had better be inlined ("always"): by itself, it would be
     optimised once more in each function that leads to it.
     An argument that is a literal, or a variable set to one, has a type of its own, for which numba compiles a function
@@ -45,6 +45,7 @@ def kernel(function: Callable | None = None, *, inline: str = "never", makes_arr
     options = {"nogil": True, "error_model": "numpy", "inline": inline, "no_cfunc_wrapper": True}
     compiled = numba.njit(_nrt=True, **options)(function)
     inner = numba.njit(_nrt=makes_arrays, no_cpython_wrapper=True, **options)(function)
+    inner.compile = functools.partial(_compile_inner, inner)
     compiled.get_call_template, compiled.get_overload = inner.get_call_template, inner.get_overload
     try:
         compiled._cache = _KernelCache(function)  # as numba's own `cache=True` does with a cache of its own
@@ -52,6 +53,17 @@ def kernel(function: Callable | None = None, *, inline: str = "never", makes_arr
     except RuntimeError:  # no folder for it is writable
         _KernelCache.fault = "no folder is writable for its cache"
     return compiled
+
+
+def _compile_inner(inner: numba.core.dispatcher.Dispatcher, signature: tuple) -> object:
+    """Compile for a call from another kernel, as numba does, but say which kernel must be marked."""
+    try:
+        return type(inner).compile(inner, signature)
+    except numba.core.errors.NumbaError as error:
+        if any(symptom in str(error) for symptom in ("NRT required", "Only accept returning of array")):
+            name = inner.py_func.__name__
+            raise numba.core.errors.TypingError(f"{name} makes an array: mark it @kernel(makes_arrays=True)") from error
+        raise
 
 
 def sources() -> str:

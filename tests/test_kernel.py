@@ -97,6 +97,18 @@ def test_a_kernel_is_compiled_for_python_only_if_python_calls_it():
     assert len(low.signatures) == 1
 
 
+@pytest.mark.parametrize("make", [lambda row: np.empty(2), lambda row: row[1:]], ids=["new", "view"])
+def test_a_kernel_that_makes_an_array_and_does_not_say_so_is_named(make):
+    makes = safe.kernel.kernel(make)
+
+    @safe.kernel.kernel
+    def calls(row):
+        return makes(row)[0]
+
+    with pytest.raises(numba.TypingError, match=r"<lambda> makes an array: mark it @kernel\(makes_arrays=True\)"):
+        calls(np.zeros(3))
+
+
 def test_without_compiling_a_run_is_the_same():
     code = (
         "import safe; print(safe.evolve('maze1', 'safe', 2, "
