@@ -32,7 +32,7 @@ def _set_buttons(app: Sphinx, config) -> None:
 
 
 def _remove_scripts(app: Sphinx, pagename: str, templatename: str, context: dict, doctree) -> None:
-    """Remove thebe, which Jupyter Book would load from a CDN, and from pages without mathematics MathJax, which is large."""
+    """Remove thebe, which would come from a CDN, and, from pages without mathematics, MathJax, which is large."""
     has_mathematics = 'class="math' in context.get("body", "")
 
     def is_needed(script) -> bool:
