@@ -159,9 +159,8 @@ def look_around(
                 first = row * columns.count
                 start, end = members.ends[index(first + left)], members.ends[index(first + right + 1)]
             for j in range(index(start), index(end)):
-                distance = _along_axis(members.points[0, j] - x, taxicab) + _along_axis(
-                    members.points[1, j] - y, taxicab
-                )
+                dx, dy = members.points[0, j] - x, members.points[1, j] - y
+                distance = _along_axis(dx, taxicab) + _along_axis(dy, taxicab)
                 for axis in range(2, points.shape[1]):
                     distance += _along_axis(members.points[axis, j] - points[i, axis], taxicab)
                 distances[index(found)] = distance  # no branch: the processor would often mispredict it

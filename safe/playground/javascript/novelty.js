@@ -95,7 +95,7 @@ export class Archive {
 // counts the points in every cell, and adds the counts up ring by ring around a point until it has k neighbours. If
 // these lie beyond the rings, as in a large and empty maze, it measures the distance to every point.
 //
-// `scorePoints` serves any points, and measures all distances.
+// `scorePoints` serves any points, and searches a grid for the neighbours of each (see neighbours.js).
 
 const RINGS = 24; // of cells around a point that are searched
 
