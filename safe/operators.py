@@ -152,7 +152,7 @@ def mutate(genome: np.ndarray, low: float, high: float, rng: np.random.Generator
     genome[gene] = draw_uniform(rng, low, high)
 
 
-@kernel(makes_arrays=True)
+@kernel
 def breed(
     genomes: np.ndarray,
     fitness: np.ndarray,
@@ -166,33 +166,7 @@ def breed(
 
     Only choices beyond the paper need the `judges` and the `repertoire`; by the paper's rules they are None.
     """
-    bred, parents, chosen_by, is_copy = offspring
-    is_elite = np.zeros(len(genomes), dtype=np.int64)  # as elsewhere: numba compiles np.zeros for each type
-    scores = np.empty(len(genomes)) if rates.judging != BEST_SCORE else fitness
-    for place in range(rates.elites):
-        if judges is not None and rates.judging != BEST_SCORE:
-            score_all(judges, draw_index(rng, len(judges.objectives)), scores)
-        fittest = np.int64(-1)
-        for i in range(len(genomes)):
-            if not is_elite[i] and (fittest < 0 or scores[i] > scores[fittest]):
-                fittest = i
-        is_elite[fittest] = 1
-        _copy(genomes, fittest, bred, place)
-        parents[place], chosen_by[place], is_copy[place] = fittest, -1, True
-    _breed_pairs(genomes, fitness, judges, repertoire, rates, rng, offspring)
-
-
-@kernel
-def _breed_pairs(
-    genomes: np.ndarray,
-    fitness: np.ndarray,
-    judges: Judges | None,
-    repertoire: Repertoire | None,
-    rates: Breeding,
-    rng: np.random.Generator,
-    offspring: Offspring,
-) -> None:
-    """The pairs behind the elites. Not part of `breed`, which makes arrays, so that no references are counted here."""
+    _pass_on_elites(genomes, fitness, judges, rates, rng, offspring)
     bred, parents, chosen_by, is_copy = offspring
     for place in range(rates.elites, len(genomes), 2):
         for child in range(place, place + 2):
@@ -213,6 +187,31 @@ def _breed_pairs(
             if rng.random() < rates.mutation:
                 mutate(bred[child], rates.low, rates.high, rng)
                 is_copy[child] = False
+
+
+@kernel(makes_arrays=True)
+def _pass_on_elites(
+    genomes: np.ndarray,
+    fitness: np.ndarray,
+    judges: Judges | None,
+    rates: Breeding,
+    rng: np.random.Generator,
+    offspring: Offspring,
+) -> None:
+    """Write the elites into `offspring`. Not part of `breed`, where no references to arrays are counted."""
+    bred, parents, chosen_by, is_copy = offspring
+    is_elite = np.zeros(len(genomes), dtype=np.int64)  # as elsewhere: numba compiles np.zeros for each type
+    scores = np.empty(len(genomes)) if rates.judging != BEST_SCORE else fitness
+    for place in range(rates.elites):
+        if judges is not None and rates.judging != BEST_SCORE:
+            score_all(judges, draw_index(rng, len(judges.objectives)), scores)
+        fittest = np.int64(-1)
+        for i in range(len(genomes)):
+            if not is_elite[i] and (fittest < 0 or scores[i] > scores[fittest]):
+                fittest = i
+        is_elite[fittest] = 1
+        _copy(genomes, fittest, bred, place)
+        parents[place], chosen_by[place], is_copy[place] = fittest, -1, True
 
 
 @kernel
